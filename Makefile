@@ -1,0 +1,47 @@
+# make run    the window on a gallery case; without a display, a picture of it
+# make test   lint, types, import contracts and all tests
+# make bench  the performance figures
+# make clean  forget the environment and every cache
+PYTHON ?= python3
+VENV := .venv
+CASE := resources/gallery/disk-4.json
+PICTURE := crossview.png
+# a virtual screen for the window's tests; macOS needs none
+XVFB := $(if $(filter Darwin,$(shell uname)),,xvfb-run -a -s "-screen 0 1600x1200x24")
+PIP_INSTALL := $(VENV)/bin/python -m pip install --disable-pip-version-check
+
+.PHONY: run test bench clean
+
+run:
+	@sh tools/system-packages.sh window "$(PYTHON)"
+	@$(MAKE) --no-print-directory $(VENV)/installed
+	@sh tools/run.sh "$(VENV)/bin/crossview" "$(CASE)" "$(PICTURE)"
+
+test:
+	@sh tools/system-packages.sh test "$(PYTHON)"
+	@$(MAKE) --no-print-directory $(VENV)/installed-test
+	$(VENV)/bin/ruff check .
+	$(VENV)/bin/ruff format --check .
+	$(VENV)/bin/mypy
+	$(VENV)/bin/lint-imports
+	$(XVFB) $(VENV)/bin/python -m pytest
+
+bench:
+	@sh tools/system-packages.sh test "$(PYTHON)"
+	@$(MAKE) --no-print-directory $(VENV)/installed-bench
+	$(XVFB) $(VENV)/bin/python -m pytest benchmarks
+
+$(VENV)/bin/python:
+	"$(PYTHON)" -m venv $(VENV)
+
+$(VENV)/installed: pyproject.toml | $(VENV)/bin/python
+	$(PIP_INSTALL) --editable .
+	@touch $@
+
+$(VENV)/installed-%: pyproject.toml | $(VENV)/bin/python
+	$(PIP_INSTALL) --editable ".[$*]"
+	@touch $@ $(VENV)/installed
+
+clean:
+	rm -rf $(VENV) build dist *.egg-info .benchmarks .import_linter_cache .mypy_cache .pytest_cache .ruff_cache $(PICTURE)
+	find crossview solvers resources tests -name __pycache__ -prune -exec rm -rf {} +

@@ -1,0 +1,1 @@
+"""Cross-fields with imposed singularities on triangulated surfaces (NumPy and SciPy only)."""
