@@ -1,1 +1,5 @@
-"""Cross-fields with imposed singularities on triangulated surfaces (NumPy and SciPy only)."""
+"""Integrable cross-fields on triangle surfaces with imposed singularities.
+
+Numerics only: NumPy and SciPy, no window and no file formats. Start with `TriSurface`, place
+`Singularity` values on it, and give them to `IsotropicSolver`.
+"""

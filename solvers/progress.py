@@ -1,0 +1,48 @@
+"""How long computations report: they are generators that yield `Progress` and return a result."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator
+from dataclasses import dataclass
+from typing import TypeVar
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Progress:
+    """A step of a long computation.
+
+    Parameters
+    ----------
+    stage : str
+        What is being done, in plain words.
+    fraction : float
+        How much of the whole is done, from 0 to 1.
+    """
+
+    stage: str
+    fraction: float
+
+
+def run(
+    computation: Generator[Progress, None, T],
+    on_progress: Callable[[Progress], object] | None = None,
+) -> T:
+    """Drive a computation to its end and return its result.
+
+    Parameters
+    ----------
+    computation : generator of Progress
+        What to run.
+    on_progress : callable, optional
+        Called with each `Progress`.
+    """
+    while True:
+        try:
+            step = next(computation)
+        except StopIteration as stop:
+            result: T = stop.value
+            return result
+        if on_progress is not None:
+            on_progress(step)

@@ -1,0 +1,160 @@
+"""Triangulations known by connectivity and edge lengths alone.
+
+Halfedge ``h = 3 f + i`` runs in face ``f`` from corner ``i`` to corner ``i + 1``; the surface lies to
+its left. Everything the discretisation needs (angles, cotangents, Levi-Civita transport) follows
+from lengths, so the same operators serve an embedded surface and its intrinsic Delaunay flips.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+IntArray = npt.NDArray[np.int64]
+FloatArray = npt.NDArray[np.float64]
+
+
+def next_halfedge(h: IntArray) -> IntArray:
+    """Return the halfedge after `h` in its face."""
+    return h + 1 - 3 * (h % 3 == 2)
+
+
+def wrap(angle: FloatArray, period: float) -> FloatArray:
+    """Return `angle` modulo `period`, in (-period / 2, period / 2]."""
+    return np.asarray(-(np.remainder(0.5 * period - angle, period) - 0.5 * period))
+
+
+class IntrinsicTriangulation:
+    """An oriented manifold triangulation with edge lengths.
+
+    Parameters
+    ----------
+    n_vertices : int
+        Number of vertices.
+    faces : (m, 3) int array
+        Corner vertices, counter-clockwise.
+    twin : (3 m,) int array
+        The halfedge on the other side; -1 on the boundary.
+    lengths : (m, 3) float array
+        Length of each halfedge.
+    """
+
+    def __init__(
+        self, n_vertices: int, faces: IntArray, twin: IntArray, lengths: FloatArray
+    ) -> None:
+        self.n_vertices = n_vertices
+        self.faces = faces
+        self.twin = twin
+        self.lengths = lengths
+
+    @property
+    def n_faces(self) -> int:
+        """Number of triangles."""
+        return len(self.faces)
+
+    @cached_property
+    def tail(self) -> IntArray:
+        """(3 m,) vertex each halfedge starts at."""
+        return self.faces.reshape(-1)
+
+    @cached_property
+    def head(self) -> IntArray:
+        """(3 m,) vertex each halfedge ends at."""
+        return self.faces[:, [1, 2, 0]].reshape(-1)
+
+    @cached_property
+    def edge_halfedges(self) -> IntArray:
+        """(ne,) the representing halfedge of each edge: the lower-numbered of the two."""
+        h = np.arange(len(self.twin))
+        return np.flatnonzero((self.twin < 0) | (h < self.twin))
+
+    @cached_property
+    def boundary_halfedges(self) -> IntArray:
+        """Halfedges without a twin."""
+        return np.flatnonzero(self.twin < 0)
+
+    @cached_property
+    def areas(self) -> FloatArray:
+        """(m,) triangle areas, by Kahan's stable form of Heron's formula."""
+        a, b, c = np.sort(self.lengths, axis=1).T[::-1]
+        product = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c))
+        return 0.25 * np.sqrt(np.maximum(product, 0.0))
+
+    @cached_property
+    def cotangents(self) -> FloatArray:
+        """(m, 3) cotangent of the angle at each corner."""
+        s = self.lengths**2
+        at_0 = s[:, 0] + s[:, 2] - s[:, 1]
+        at_1 = s[:, 1] + s[:, 0] - s[:, 2]
+        at_2 = s[:, 2] + s[:, 1] - s[:, 0]
+        return np.stack([at_0, at_1, at_2], axis=1) / (4.0 * self.areas)[:, None]
+
+    @cached_property
+    def angles(self) -> FloatArray:
+        """(m, 3) interior angle at each corner, radians."""
+        return np.asarray(np.arctan2(1.0, self.cotangents))
+
+    @cached_property
+    def weights(self) -> FloatArray:
+        """(3 m,) cotangent weight of each halfedge's edge (half the sum of opposite cotangents)."""
+        half = 0.5 * self.cotangents[:, [2, 0, 1]].reshape(-1)
+        across = np.where(self.twin >= 0, half[self.twin], 0.0)
+        return np.asarray(half + across)
+
+    @cached_property
+    def directions(self) -> FloatArray:
+        """(3 m,) angle of each halfedge in its face's frame (x along the face's first halfedge)."""
+        angles = self.angles
+        zero = np.zeros(self.n_faces)
+        return np.stack([zero, np.pi - angles[:, 1], np.pi + angles[:, 0]], axis=1).reshape(-1)
+
+    @cached_property
+    def transport(self) -> FloatArray:
+        """(3 m,) Levi-Civita transport over each halfedge, radians.
+
+        What to add to an angle in the frame of the halfedge's face to get the angle of the same
+        direction in the frame of the twin's face; 0 on the boundary.
+        """
+        turn = self.directions[self.twin] + np.pi - self.directions
+        return np.where(self.twin >= 0, wrap(turn, 2 * np.pi), 0.0)
+
+    @cached_property
+    def corner_positions(self) -> FloatArray:
+        """(m, 3, 2) corners of each face laid out in its own frame."""
+        flat = np.zeros((self.n_faces, 3, 2))
+        flat[:, 1, 0] = self.lengths[:, 0]
+        flat[:, 2, 0] = self.lengths[:, 2] * np.cos(self.angles[:, 0])
+        flat[:, 2, 1] = self.lengths[:, 2] * np.sin(self.angles[:, 0])
+        return flat
+
+    @cached_property
+    def curvatures(self) -> FloatArray:
+        """(n,) integrated curvature of each vertex.
+
+        Gauss curvature 2 pi - sum of angles inside, geodesic curvature pi - sum of angles on the
+        boundary.
+        """
+        total = np.bincount(self.tail, self.angles.reshape(-1), self.n_vertices)
+        full = np.full(self.n_vertices, 2 * np.pi)
+        full[self.tail[self.boundary_halfedges]] = np.pi
+        return np.asarray(full - total)
+
+    def gradients(self, values: FloatArray) -> FloatArray:
+        """Return the gradient of piecewise linear functions in each face's frame.
+
+        Parameters
+        ----------
+        values : (m, 3) float array
+            Value at each corner.
+
+        Returns
+        -------
+        (m, 2) float array
+        """
+        p = self.corner_positions
+        opposite = p[:, [2, 0, 1]] - p[:, [1, 2, 0]]
+        sums = np.einsum("mi,mij->mj", values, opposite)
+        rotated = np.stack([-sums[:, 1], sums[:, 0]], axis=1)
+        return np.asarray(rotated / (2.0 * self.areas)[:, None])
