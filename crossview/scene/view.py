@@ -1,0 +1,171 @@
+"""What the scene is asked to show: frozen values, no VTK."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from solvers.errors import CrossviewError
+
+FloatArray = npt.NDArray[np.floating[Any]]
+IntArray = npt.NDArray[np.integer[Any]]
+Background = Literal["white", "dark", "transparent"]
+
+
+@dataclass(frozen=True)
+class LayerSettings:
+    """How one layer is drawn; `LAYERS` says which of these a layer listens to.
+
+    Parameters
+    ----------
+    visible : bool
+        Whether the layer is drawn.
+    opacity : float
+        0 (nothing) to 1. For H and theta: how much of their colour covers the grey surface.
+    color_map : str
+        A name of `colors.color_map_names()`; empty for the layer's own.
+    value_range : (float, float), optional
+        Colour limits; None: symmetric about 0 and fitted to the data.
+    size : float
+        Factor on the automatic size of the glyphs, or on the width of the lines.
+    density : float
+        Factor on the automatic number of glyphs.
+    uniform : bool
+        Glyphs of one size instead of exp(H).
+    edges : bool
+        Whether the triangles' edges are drawn on the surface.
+    """
+
+    visible: bool = True
+    opacity: float = 1.0
+    color_map: str = ""
+    value_range: tuple[float, float] | None = None
+    size: float = 1.0
+    density: float = 1.0
+    uniform: bool = False
+    edges: bool = False
+
+
+@dataclass(frozen=True)
+class LayerKind:
+    """A layer's name (as on the command line), its label, and the settings it listens to."""
+
+    name: str
+    label: str
+    settings: tuple[str, ...] = ()
+    visible: bool = True
+
+
+LAYERS: tuple[LayerKind, ...] = (
+    LayerKind("surface", "Surface", ("opacity", "edges")),
+    LayerKind("H", "H", ("opacity", "color_map", "value_range")),
+    LayerKind("theta", "Theta", ("opacity", "color_map"), visible=False),
+    LayerKind("crosses", "Crosses", ("opacity", "size", "density", "uniform")),
+    LayerKind("singularities", "Singularities", ("size",)),
+    LayerKind("cut", "Cut graph", ("opacity", "size"), visible=False),
+    LayerKind("boundary", "Boundary", ("size",)),
+    LayerKind("legend", "Valence legend"),
+    LayerKind("axes", "Axes"),
+)
+
+
+def default_layers() -> Mapping[str, LayerSettings]:
+    """Return the settings every layer starts with, by layer name."""
+    return MappingProxyType({kind.name: LayerSettings(visible=kind.visible) for kind in LAYERS})
+
+
+def layers_named(names: tuple[str, ...] | list[str]) -> Mapping[str, LayerSettings]:
+    """Return the default settings with only the layers of these names visible.
+
+    Raises
+    ------
+    CrossviewError
+        A name that no layer has.
+    """
+    known = [kind.name for kind in LAYERS]
+    for name in names:
+        if name not in known:
+            raise CrossviewError(f'no layer "{name}"', "layers", "choose from " + ", ".join(known))
+    return MappingProxyType({name: LayerSettings(visible=name in names) for name in known})
+
+
+@dataclass(frozen=True)
+class Marker:
+    """A singularity as the scene sees it: a position in space, a valence, and its state."""
+
+    position: tuple[float, float, float]
+    valence: int
+    selected: bool = False
+    locked: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Elements:
+    """Faces (k,), vertices (k,) and edges (k, 2; vertex pairs) of the surface to point out."""
+
+    faces: IntArray = field(default_factory=lambda: np.empty(0, int))
+    vertices: IntArray = field(default_factory=lambda: np.empty(0, int))
+    edges: IntArray = field(default_factory=lambda: np.empty((0, 2), int))
+
+
+@dataclass(frozen=True, eq=False)
+class SceneView:
+    """Everything the scene shows, as one value. What is None or empty is not drawn.
+
+    Arrays are compared by identity: never change one in place, make a new one.
+
+    Parameters
+    ----------
+    points : (n, 3) float, optional
+        Vertices of the surface; need not form a valid `TriSurface`.
+    faces : (m, 3) int, optional
+        Its triangles.
+    H : (n,) float, optional
+        Log of the size at the vertices.
+    u, v : (m, 3) float, optional
+        Unit directions of the cross at the faces' barycentres.
+    singularities : tuple of Marker
+        The singularities placed.
+    preview : Marker, optional
+        The dot that the add tool carries.
+    cut_graph : (k, 2) int, optional
+        Vertex pairs.
+    loop : (k,) int, optional
+        Vertices of a path to point out (a holonomy condition's).
+    problem : Elements, optional
+        Offending elements to point out.
+    title : str
+        One line at the top left.
+    background : {"white", "dark", "transparent"}
+        Transparent is drawn as on white, without the white.
+    layers : mapping of str to LayerSettings
+        As `default_layers`; a layer that is missing is drawn with its defaults.
+    """
+
+    points: FloatArray | None = None
+    faces: IntArray | None = None
+    H: FloatArray | None = None
+    u: FloatArray | None = None
+    v: FloatArray | None = None
+    singularities: tuple[Marker, ...] = ()
+    preview: Marker | None = None
+    cut_graph: IntArray | None = None
+    loop: IntArray | None = None
+    problem: Elements | None = None
+    title: str = ""
+    background: Background = "white"
+    layers: Mapping[str, LayerSettings] = field(default_factory=default_layers)
+
+    def layer(self, name: str) -> LayerSettings:
+        """Return the settings of a layer."""
+        return self.layers.get(name) or default_layers()[name]
+
+    def with_layer(self, name: str, **changes: Any) -> SceneView:
+        """Return this view with some settings of one layer changed."""
+        layers = {**self.layers, name: replace(self.layer(name), **changes)}
+        return replace(self, layers=MappingProxyType(layers))
