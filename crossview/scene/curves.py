@@ -1,0 +1,95 @@
+"""Curves on the surface: its boundary, the cut graph, a loop to point out."""
+
+from __future__ import annotations
+
+import numpy as np
+import pyvista as pv
+
+from crossview.scene.actors import MeshActor
+from crossview.scene.colors import CUT, LOOP, THEMES
+from crossview.scene.geometry import Triangles, dashes
+from crossview.scene.view import SceneView
+from crossview.scene.watch import Watch
+
+_BOUNDARY_WIDTH, _CUT_WIDTH, _LOOP_WIDTH = 2.5, 2.5, 5.0
+# Dash and gap of the cut graph, in diagonals of the surface.
+CUT_DASH, CUT_GAP = 0.012, 0.008
+
+
+class BoundaryLayer:
+    """The edges of one triangle only, in the theme's ink."""
+
+    def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float) -> None:
+        self._actor = MeshActor(plotter, "boundary", towards=80.0)
+        self._actor.flat()
+        self._pixel_ratio = pixel_ratio
+        self._watch = Watch()
+
+    def show(self, view: SceneView, triangles: Triangles | None) -> None:
+        """Apply what changed."""
+        if self._watch.changed("triangles", triangles) and triangles is not None:
+            self._actor.replace(triangles.points, lines=triangles.boundary_edges)
+        settings = view.layer("boundary")
+        self._actor.color(THEMES[view.background].ink)
+        self._actor.property.SetLineWidth(_BOUNDARY_WIDTH * settings.size * self._pixel_ratio)
+        self._actor.visible = settings.visible and triangles is not None
+
+    def remove(self) -> None:
+        """Take the boundary off the plotter."""
+        self._actor.remove()
+
+
+class CutLayer:
+    """The cut graph in blue dashes."""
+
+    def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float) -> None:
+        self._actor = MeshActor(plotter, "cut", towards=100.0)
+        self._actor.flat()
+        self._actor.color(CUT)
+        self._pixel_ratio = pixel_ratio
+        self._watch = Watch()
+
+    def show(self, view: SceneView, triangles: Triangles | None) -> None:
+        """Apply what changed."""
+        edges = view.cut_graph
+        settings = view.layer("cut")
+        self._actor.property.SetOpacity(settings.opacity)
+        self._actor.property.SetLineWidth(_CUT_WIDTH * settings.size * self._pixel_ratio)
+        if not settings.visible or triangles is None or edges is None or not len(edges):
+            self._actor.visible = False
+            return
+        if self._watch.changed("edges", triangles, edges):
+            lengths = (CUT_DASH * triangles.diagonal, CUT_GAP * triangles.diagonal)
+            ends, lines = dashes(triangles.points, edges, *lengths)
+            self._actor.replace(ends, lines=lines)
+        self._actor.visible = True
+
+    def remove(self) -> None:
+        """Take the cut graph off the plotter."""
+        self._actor.remove()
+
+
+class LoopLayer:
+    """A path along vertices, thick, for as long as something points at it."""
+
+    def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float) -> None:
+        self._actor = MeshActor(plotter, "loop", towards=120.0)
+        self._actor.flat()
+        self._actor.color(LOOP)
+        self._actor.property.SetLineWidth(_LOOP_WIDTH * pixel_ratio)
+        self._watch = Watch()
+
+    def show(self, view: SceneView, triangles: Triangles | None) -> None:
+        """Apply what changed."""
+        path = view.loop
+        if triangles is None or path is None or len(path) < 2:
+            self._actor.visible = False
+            return
+        if self._watch.changed("path", triangles, path):
+            pairs = np.arange(len(path) - 1)[:, None] + np.array([0, 1])
+            self._actor.replace(triangles.points[path], lines=pairs)
+        self._actor.visible = True
+
+    def remove(self) -> None:
+        """Take the loop off the plotter."""
+        self._actor.remove()

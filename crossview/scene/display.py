@@ -1,0 +1,116 @@
+"""Can this machine draw? Asked before VTK is, because VTK would crash."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import sys
+from functools import cache
+
+from solvers.errors import CrossviewError
+
+OFF_SCREEN = {"libEGL.so.1": "libegl1", "libEGL_mesa.so.0": "libgl1-mesa-dri"}
+ON_SCREEN = {"libGL.so.1": "libgl1", "libX11.so.6": "libx11-6"}
+_EGL_PLATFORM_DEVICE = 0x313F
+
+
+class RenderingError(CrossviewError):
+    """What drawing needs is missing on the machine."""
+
+
+def ensure_rendering() -> None:
+    """Make sure that VTK can draw here; call it before the first plotter.
+
+    Without a display, VTK is told to draw off screen through EGL.
+
+    Raises
+    ------
+    RenderingError
+        System libraries are missing; names the command that installs them.
+    """
+    if not sys.platform.startswith("linux"):
+        return
+    if os.environ.get("DISPLAY"):
+        _require({**ON_SCREEN, **OFF_SCREEN})
+        return
+    os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
+    _require(OFF_SCREEN)
+    if not _egl_starts():
+        raise _missing(["a working OpenGL driver"], list(OFF_SCREEN.values()))
+
+
+def _require(packages: dict[str, str]) -> None:
+    """Raise unless every library loads; `packages` maps each to the package that holds it."""
+    missing = [library for library in packages if not _loads(library)]
+    # Off screen, another vendor's EGL driver may stand in for Mesa's: then EGL starts.
+    if missing == ["libEGL_mesa.so.0"] and _egl_starts():
+        return
+    if missing:
+        raise _missing(missing, [packages[library] for library in missing])
+
+
+def _missing(what: list[str], packages: list[str]) -> RenderingError:
+    return RenderingError(
+        f"cannot draw, {' and '.join(what)} not found",
+        "system libraries",
+        "sudo apt-get install -y --no-install-recommends " + " ".join(packages),
+    )
+
+
+def _loads(library: str) -> bool:
+    try:
+        ctypes.CDLL(library)
+    except OSError:
+        return False
+    return True
+
+
+@cache
+def _egl_starts() -> bool:
+    """Return whether EGL initialises on one of its devices, as VTK will ask of it."""
+    try:
+        egl = ctypes.CDLL("libEGL.so.1")
+    except OSError:
+        return False
+    egl.eglGetProcAddress.restype = ctypes.c_void_p
+    addresses = [egl.eglGetProcAddress(name) for name in _ENTRY_POINTS]
+    if not all(addresses):
+        return False
+    query_devices = ctypes.CFUNCTYPE(
+        ctypes.c_uint, ctypes.c_int, ctypes.c_void_p, ctypes.POINTER(ctypes.c_int)
+    )(addresses[0])
+    platform_display = ctypes.CFUNCTYPE(
+        ctypes.c_void_p, ctypes.c_uint, ctypes.c_void_p, ctypes.c_void_p
+    )(addresses[1])
+    egl.eglInitialize.argtypes = [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p]
+    devices = (ctypes.c_void_p * 16)()
+    count = ctypes.c_int(0)
+    if not query_devices(16, ctypes.cast(devices, ctypes.c_void_p), ctypes.byref(count)):
+        return False
+    displays = (
+        platform_display(_EGL_PLATFORM_DEVICE, devices[i], None) for i in range(count.value)
+    )
+    return any(display and egl.eglInitialize(display, None, None) for display in displays)
+
+
+_ENTRY_POINTS = (b"eglQueryDevicesEXT", b"eglGetPlatformDisplayEXT")
+
+
+@cache
+def software_renderer() -> bool:
+    """Return whether OpenGL runs on the processor; multi-sampling is then not worth its time.
+
+    Opens a hidden window of a few pixels, once.
+    """
+    ensure_rendering()
+    import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
+    from vtkmodules.vtkRenderingCore import vtkRenderWindow
+
+    window = vtkRenderWindow()
+    window.SetShowWindow(False)
+    window.SetUseOffScreenBuffers(True)
+    window.SetSize(8, 8)
+    window.Render()
+    report = window.ReportCapabilities().lower()
+    window.Finalize()
+    return any(name in report for name in ("llvmpipe", "softpipe", "swrast", "swiftshader"))

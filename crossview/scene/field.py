@@ -1,0 +1,66 @@
+"""From the solvers' values to what the scene shows."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from crossview.scene.geometry import FloatArray, IntArray, Triangles
+from crossview.scene.view import Marker, SceneView
+from solvers.crossfield import CrossField
+
+
+def field_view(field: CrossField, cut_graph: IntArray | None = None, **others: Any) -> SceneView:
+    """Return the view of a solved field.
+
+    Parameters
+    ----------
+    field : CrossField
+    cut_graph : (k, 2) int, optional
+        Vertex pairs of the field's surface.
+    **others
+        Further fields of `SceneView`: layers, title, background, ...
+    """
+    surface = field.surface
+    positions = surface.positions([s.point for s in field.singularities])
+    markers = tuple(
+        Marker((float(x), float(y), float(z)), s.valence, locked=s.locked)
+        for (x, y, z), s in zip(positions, field.singularities, strict=True)
+    )
+    values = {"singularities": markers, **others}
+    return SceneView(
+        surface.vertices,
+        surface.faces,
+        H=field.H,
+        u=field.u,
+        v=field.v,
+        cut_graph=cut_graph,
+        **values,
+    )
+
+
+def cross_angle(triangles: Triangles, u: FloatArray) -> FloatArray:
+    """Angle of the crosses against a direction fixed in space, projected to each triangle.
+
+    The direction is x on a surface seen from above, else the axis that is up; where it is normal
+    to the surface the angle has a pole of the reference, not of the field.
+
+    Parameters
+    ----------
+    triangles : Triangles
+    u : (m, 3) float
+
+    Returns
+    -------
+    (m,) float
+        Radians, in [0, pi/2): a cross is the same after a quarter turn.
+    """
+    normals = triangles.normals
+    reference = np.eye(3)[int(np.argmin(np.ptp(triangles.points, axis=0)))]
+    if triangles.plane_normal is not None:
+        reference = np.eye(3)[int(np.argmin(np.abs(triangles.plane_normal)))]
+    along = np.einsum("ij,j->i", u, reference)
+    across = np.einsum("ij,ij->i", np.cross(normals, u), np.broadcast_to(reference, u.shape))
+    # reference = along u + across (n x u): the cross is turned back by this angle.
+    return np.mod(-np.arctan2(across, along), np.pi / 2)

@@ -1,0 +1,150 @@
+"""Title, valence legend and colour bar: the texts of a figure."""
+
+from __future__ import annotations
+
+import numpy as np
+import pyvista as pv
+
+from crossview.scene.colors import THEMES, color_table, valence_color
+from crossview.scene.geometry import IntArray, Triangles
+from crossview.scene.overlay import Label, Patches, bytes_of, discs
+from crossview.scene.surface import DEFAULT_MAPS, shown_scalar
+from crossview.scene.view import SceneView
+from crossview.scene.watch import Watch
+
+MARGIN = 18.0
+TEXT_SIZE = 13.0
+# The colour bar in pixels; its texts stand to the left of it.
+BAR_WIDTH, BAR_HEIGHT, BAR_COLORS = 14.0, 170.0, 128
+# Room that the colour bar and the legend need on the right and at the bottom.
+BAR_ROOM, LEGEND_ROOM = 96.0, 46.0
+_DISC, _STEP = 6.5, 46.0
+
+
+class TitleLayer:
+    """One line at the top left."""
+
+    def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float) -> None:
+        self._ratio = pixel_ratio
+        self._label = Label(plotter, (0.0, 1.0), 15.0 * pixel_ratio, "left")
+        self._watch = Watch()
+
+    def show(self, view: SceneView, triangles: Triangles | None) -> None:
+        """Apply what changed."""
+        if self._watch.changed("title", view.title, view.background):
+            offset = (MARGIN * self._ratio, -(MARGIN + 4.0) * self._ratio)
+            self._label.show(view.title, offset, THEMES[view.background].text)
+
+    def remove(self) -> None:
+        """Take the title off the plotter."""
+        self._label.remove()
+
+
+class ValenceLegendLayer:
+    """A disc and a number for each valence present, at the bottom left."""
+
+    def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float) -> None:
+        self._plotter = plotter
+        self._ratio = pixel_ratio
+        self._patches = Patches(plotter, (0.0, 0.0))
+        self._labels: list[Label] = []
+        self._watch = Watch()
+
+    def show(self, view: SceneView, triangles: Triangles | None) -> None:
+        """Apply what changed."""
+        shown = view.layer("legend").visible and view.layer("singularities").visible
+        valences = sorted({m.valence for m in view.singularities}) if shown else []
+        if self._watch.changed("valences", tuple(valences), view.background):
+            self._draw(valences, THEMES[view.background].text)
+
+    def remove(self) -> None:
+        """Take the legend off the plotter."""
+        self._patches.remove()
+        for label in self._labels:
+            label.remove()
+
+    def _draw(self, valences: list[int], color: str) -> None:
+        texts = ["valence", *map(str, valences)] if valences else []
+        while len(self._labels) < len(texts):
+            self._labels.append(Label(self._plotter, (0.0, 0.0), TEXT_SIZE * self._ratio, "left"))
+        y = (MARGIN + 4.0) * self._ratio
+        starts = [MARGIN, *(MARGIN + 74.0 + _STEP * np.arange(len(valences)))]
+        gaps = [0.0, *(_DISC + 7.0 for _ in valences)]
+        for i, label in enumerate(self._labels):
+            if i < len(texts):
+                label.show(texts[i], ((starts[i] + gaps[i]) * self._ratio, y), color)
+            else:
+                label.show("", (0.0, 0.0), color)
+        if not valences:
+            self._patches.hide()
+            return
+        centres = np.array([[x * self._ratio, y] for x in starts[1:]])
+        points, cells = discs(centres, _DISC * self._ratio)
+        self._patches.show(points, cells, bytes_of([valence_color(n) for n in valences]))
+
+
+class ColorBarLayer:
+    """The colours of H or of theta with their limits, at the bottom right; never moves."""
+
+    def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float) -> None:
+        self._ratio = pixel_ratio
+        self._patches = Patches(plotter, (1.0, 0.0))
+        self._title = Label(plotter, (1.0, 0.0), (TEXT_SIZE + 1.0) * pixel_ratio, "centre")
+        self._ticks = [
+            Label(plotter, (1.0, 0.0), TEXT_SIZE * pixel_ratio, "right") for _ in range(5)
+        ]
+        self._watch = Watch()
+
+    def show_range(self, view: SceneView, limits: tuple[float, float]) -> None:
+        """Apply what changed; `limits` are those of H in use."""
+        shown = shown_scalar(view)
+        settings = view.layer(shown or "H")
+        name = settings.color_map or DEFAULT_MAPS[shown or "H"]
+        if not self._watch.changed("bar", shown, name, settings.opacity, limits, view.background):
+            return
+        color = THEMES[view.background].text
+        texts = bar_texts(shown, limits) if shown else [""] * 5
+        self._title.show(bar_title(shown), self._at(0.5, BAR_HEIGHT + 16.0), color)
+        for i, (label, text) in enumerate(zip(self._ticks, texts, strict=True)):
+            x, y = self._at(0.0, BAR_HEIGHT * i / 4.0)
+            label.show(text, (x - 7.0 * self._ratio, y), color)
+        if shown:
+            self._bar(color_table(name, settings.opacity, BAR_COLORS)[:, :3])
+        else:
+            self._patches.hide()
+
+    def remove(self) -> None:
+        """Take the colour bar off the plotter."""
+        self._patches.remove()
+        for label in (self._title, *self._ticks):
+            label.remove()
+
+    def _at(self, across: float, up: float) -> tuple[float, float]:
+        """Pixels from the corner: `across` in widths of the bar, `up` from its foot."""
+        x = -MARGIN - BAR_WIDTH * (1.0 - across)
+        return x * self._ratio, (MARGIN + 4.0 + up) * self._ratio
+
+    def _bar(self, colors: IntArray) -> None:
+        n = len(colors)
+        heights = np.linspace(0.0, BAR_HEIGHT, n + 1)
+        left = np.array([self._at(0.0, y) for y in heights])
+        right = np.array([self._at(1.0, y) for y in heights])
+        i = np.arange(n)
+        cells = np.stack([i, n + 1 + i, n + 2 + i, i + 1], axis=1)
+        self._patches.show(np.vstack([left, right]), cells, colors)
+
+
+def bar_title(shown: str) -> str:
+    """Return what the colour bar says above itself."""
+    return {"H": "H", "theta": "θ", "": ""}[shown]
+
+
+def bar_texts(shown: str, limits: tuple[float, float]) -> list[str]:
+    """Return the five numbers beside the colour bar, from its foot up."""
+    if shown == "theta":
+        return ["0°", "", "45°", "", "90°"]
+    values = np.linspace(*limits, 5)
+    step = (limits[1] - limits[0]) / 4.0
+    digits = max(0, 1 - int(np.floor(np.log10(step)))) if step > 0.0 else 1
+    texts = [f"{value:.{digits}f}" for value in values]
+    return [text.replace("-", "−") if float(text) else "0" for text in texts]

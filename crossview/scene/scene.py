@@ -1,0 +1,140 @@
+"""The scene: the layers of one plotter, kept equal to the last view shown."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+import pyvista as pv
+
+from crossview.scene.axes import AxesLayer
+from crossview.scene.camera import Room, camera_for
+from crossview.scene.colors import THEMES, rgb
+from crossview.scene.crosses import CrossesLayer
+from crossview.scene.curves import BoundaryLayer, CutLayer, LoopLayer
+from crossview.scene.geometry import FloatArray, IntArray, Triangles
+from crossview.scene.legend import (
+    BAR_ROOM,
+    LEGEND_ROOM,
+    MARGIN,
+    ColorBarLayer,
+    TitleLayer,
+    ValenceLegendLayer,
+)
+from crossview.scene.problems import ProblemLayer
+from crossview.scene.singularities import SingularitiesLayer
+from crossview.scene.surface import SurfaceLayer, shown_scalar
+from crossview.scene.view import SceneView
+from crossview.scene.watch import Watch
+
+
+class Scene:
+    """Shows views on a plotter.
+
+    Parameters
+    ----------
+    plotter : pyvista plotter
+        Empty; its lights and background become the scene's.
+    pixel_ratio : float
+        Device pixels per pixel: widths of lines and sizes of texts are multiplied by it.
+    """
+
+    def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float = 1.0) -> None:
+        self._plotter = plotter
+        self._ratio = pixel_ratio
+        self._watch = Watch()
+        self._view = SceneView()
+        self._triangles: Triangles | None = None
+        _light(plotter)
+        self._surface = SurfaceLayer(plotter, pixel_ratio)
+        self._bar = ColorBarLayer(plotter, pixel_ratio)
+        kinds = (
+            CrossesLayer,
+            BoundaryLayer,
+            CutLayer,
+            LoopLayer,
+            SingularitiesLayer,
+            ProblemLayer,
+            TitleLayer,
+            ValenceLegendLayer,
+            AxesLayer,
+        )
+        self._layers = (self._surface, *(kind(plotter, pixel_ratio) for kind in kinds))
+        self.show(self._view)
+
+    @property
+    def h_range(self) -> tuple[float, float]:
+        """The limits of the colours of H last shown."""
+        return self._surface.h_range
+
+    def show(self, view: SceneView) -> bool:
+        """Show a view: touch only what changed since the last one.
+
+        Returns
+        -------
+        bool
+            Whether the picture may differ, i.e. the plotter is to render.
+        """
+        if not self._watch.changed("view", *vars(view).values()):
+            return False
+        if self._watch.changed("surface", view.points, view.faces):
+            self._triangles = _drawable(view.points, view.faces)
+        if self._watch.changed("background", view.background):
+            self._plotter.renderer.SetBackground(*rgb(THEMES[view.background].background))
+        for layer in self._layers:
+            layer.show(view, self._triangles)
+        self._bar.show_range(view, self.h_range)
+        self._view = view
+        return True
+
+    def fit(self, camera: str = "auto") -> None:
+        """Set the camera so that the surface fills the room between the texts.
+
+        Parameters
+        ----------
+        camera : str
+            As `camera.camera_for` reads it.
+        """
+        if self._triangles is None:
+            return
+        width, height = self._plotter.window_size
+        margin = MARGIN * self._ratio
+        view = self._view
+        room = Room(
+            width,
+            height,
+            left=margin,
+            right=BAR_ROOM * self._ratio if shown_scalar(view) else margin,
+            top=2.2 * margin if view.title else margin,
+            bottom=LEGEND_ROOM * self._ratio if view.singularities else margin,
+        )
+        camera_for(camera, self._triangles, room).apply(self._plotter.renderer.GetActiveCamera())
+        self._plotter.renderer.ResetCameraClippingRange()
+        # Else pyvista chooses its own view before the first frame.
+        self._plotter.camera_set = True
+
+    def remove(self) -> None:
+        """Take everything off the plotter."""
+        for layer in (*self._layers, self._bar):
+            layer.remove()
+
+
+def _light(plotter: pv.BasePlotter) -> None:
+    """Light from over the eye's left shoulder, and some from the eye itself: soft, no gloss."""
+    plotter.remove_all_lights()
+    key = pv.Light(light_type="camera light", intensity=0.55)
+    key.position = (-0.6, 0.9, 1.4)
+    fill = pv.Light(light_type="headlight", intensity=0.55)
+    for light in (key, fill):
+        plotter.add_light(light)
+
+
+def _drawable(points: FloatArray | None, faces: IntArray | None) -> Triangles | None:
+    """Return the triangles with their numbers kept and none that would upset the renderer."""
+    if points is None or faces is None or not len(points) or not len(faces):
+        return None
+    finite: npt.NDArray[np.bool_] = np.isfinite(points).all(axis=1)
+    if not finite.any():
+        return None
+    points = np.where(finite[:, None], points, points[finite].mean(axis=0))
+    inside: npt.NDArray[np.bool_] = ((faces >= 0) & (faces < len(points))).all(axis=1)
+    return Triangles(points, np.where(inside[:, None], faces, 0))

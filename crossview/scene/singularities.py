@@ -1,0 +1,120 @@
+"""Singularities, the preview dot and the ring of the selected: rimmed discs that face the eye."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pyvista as pv
+from scipy.spatial.distance import pdist
+
+from crossview.scene.actors import MeshActor, set_cell_colors
+from crossview.scene.colors import rgb, valence_color
+from crossview.scene.geometry import FloatArray, IntArray, Triangles
+from crossview.scene.view import Marker, SceneView
+from crossview.scene.watch import Watch
+
+# Radius of a singularity in diagonals of the surface, and at most in distances to its neighbour.
+_RADIUS, _CROWDED = 0.0125, 0.4
+_RIM = "#16181c"
+_RING_SIZE = 1.75
+_PREVIEW_OPACITY = 0.6
+# Towards the eye, past the surface that a ball would sink into when seen from the side.
+_TOWARDS = 1200.0
+
+# A ball painted by how far its normal leans from the eye: a disc in every view, of the right
+# size and hidden by what is before it.
+_DISC = """//VTK::Light::Impl
+  float facing = clamp(abs(normalVCVSOutput.z), 0.0, 1.0);
+  float away = sqrt(1.0 - facing * facing);
+  fragOutput0 = vec4(mix(diffuseColor, vec3({rim}), smoothstep(0.84, 0.88, away)), opacity);
+"""
+_RING = """//VTK::Light::Impl
+  float facing = clamp(abs(normalVCVSOutput.z), 0.0, 1.0);
+  if (sqrt(1.0 - facing * facing) < 0.84) discard;
+  fragOutput0 = vec4(diffuseColor, opacity);
+"""
+
+
+class _Balls:
+    """Any number of balls of one shader in one dataset."""
+
+    def __init__(self, plotter: pv.BasePlotter, name: str, towards: float, shader: str) -> None:
+        self._actor = MeshActor(plotter, name, towards=towards)
+        code = shader.format(rim=", ".join(f"{part:.4f}" for part in rgb(_RIM)))
+        self._actor.actor.GetShaderProperty().AddFragmentShaderReplacement(
+            "//VTK::Light::Impl", True, code, False
+        )
+        self._actor.property.SetInterpolationToPhong()
+        ball = pv.Sphere(radius=1.0, theta_resolution=40, phi_resolution=32)
+        self._unit: FloatArray = np.asarray(ball.points)
+        self._faces: IntArray = np.asarray(ball.regular_faces)
+        self.property = self._actor.property
+
+    def show(self, centres: FloatArray, radius: float, colors: list[str]) -> None:
+        """Draw balls of these centres (k, 3) and colours."""
+        k = len(colors)
+        points = (centres[:, None] + radius * self._unit).reshape(-1, 3)
+        if self._actor.mesh.n_points == len(points):
+            if k:
+                self._actor.move(points)
+        else:
+            first = len(self._unit) * np.arange(k)[:, None, None]
+            self._actor.replace(points, faces=(self._faces + first).reshape(-1, 3))
+            normals: Any = np.tile(self._unit, (k, 1)).astype(np.float32)
+            self._actor.mesh.GetPointData().SetNormals(pv.convert_array(normals, "Normals"))
+        if k:
+            rows = np.array([rgb(color) for color in colors]) * 255.0
+            cells = np.repeat(np.round(rows), len(self._faces), axis=0)
+            set_cell_colors(self._actor.mesh, self._actor.mapper, cells)
+        self._actor.visible = k > 0
+
+    def remove(self) -> None:
+        self._actor.remove()
+
+
+class SingularitiesLayer:
+    """The singularities in the colours of their valences, and a ring about the selected."""
+
+    def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float) -> None:
+        self._discs = _Balls(plotter, "singularities", _TOWARDS, _DISC)
+        self._rings = _Balls(plotter, "selection", _TOWARDS, _RING)
+        self._preview = _Balls(plotter, "preview", _TOWARDS + 300.0, _DISC)
+        self._preview.property.SetOpacity(_PREVIEW_OPACITY)
+        self._watch = Watch()
+
+    def show(self, view: SceneView, triangles: Triangles | None) -> None:
+        """Apply what changed."""
+        settings = view.layer("singularities")
+        markers = view.singularities if settings.visible else ()
+        if not self._watch.changed("markers", markers, view.preview, settings.size, triangles):
+            return
+        diagonal = triangles.diagonal if triangles is not None else 1.0
+        # A dragged singularity is in the way of its neighbours, not of their size.
+        radius = marker_radius(view.singularities, diagonal, settings.size)
+        self._draw(self._discs, markers, radius)
+        selected = tuple(replace(m, valence=0) for m in markers if m.selected)
+        self._draw(self._rings, selected, _RING_SIZE * radius)
+        self._draw(self._preview, (view.preview,) if view.preview else (), radius)
+
+    def remove(self) -> None:
+        """Take them all off the plotter."""
+        for balls in (self._discs, self._rings, self._preview):
+            balls.remove()
+
+    @staticmethod
+    def _draw(balls: _Balls, markers: tuple[Marker, ...], radius: float) -> None:
+        centres = np.array([m.position for m in markers], float).reshape(-1, 3)
+        balls.show(
+            centres, radius, [valence_color(m.valence) if m.valence else _RIM for m in markers]
+        )
+
+
+def marker_radius(markers: tuple[Marker, ...], diagonal: float, size: float) -> float:
+    """Return the radius of the discs: of the surface's size, less where they are crowded."""
+    radius = _RADIUS * diagonal
+    if len(markers) > 1:
+        nearest = float(np.quantile(pdist(np.array([m.position for m in markers])), 0.02))
+        radius = min(radius, max(_CROWDED * nearest, 0.25 * radius))
+    return radius * size
