@@ -1,0 +1,43 @@
+"""Surfaces made by functions: clean triangles, deterministic, with parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from solvers.primitives.curved import (
+    blob,
+    cube_sphere,
+    cylinder,
+    ellipsoid,
+    sphere,
+    torus,
+    torus_with_hole,
+)
+from solvers.primitives.flat import annulus, disk, l_shape, plate_with_holes, rectangle, square
+from solvers.primitives.genus import genus
+from solvers.primitives.planar import planar
+from solvers.surface import TriSurface
+
+BUILTIN: dict[str, Callable[..., TriSurface]] = {
+    function.__name__: function
+    for function in (
+        square,
+        rectangle,
+        disk,
+        annulus,
+        l_shape,
+        plate_with_holes,
+        planar,
+        sphere,
+        cube_sphere,
+        ellipsoid,
+        blob,
+        cylinder,
+        torus,
+        torus_with_hole,
+        genus,
+    )
+}
+"""The built-in surfaces by name."""
+
+__all__ = ["BUILTIN", *BUILTIN]

@@ -1,0 +1,41 @@
+"""Checks of the parameters of built-in surfaces."""
+
+from __future__ import annotations
+
+import math
+
+from solvers.errors import SurfaceError
+
+MOST_VERTICES = 4_000_000
+
+
+def whole(name: str, value: float, least: int, step: int = 1) -> int:
+    """Return `value` as an integer.
+
+    Raises
+    ------
+    SurfaceError
+        Unless it is `least` or `least` plus a multiple of `step`.
+    """
+    good = isinstance(value, (int, float)) and math.isfinite(value) and value == int(value)
+    if not good or value < least or (int(value) - least) % step:
+        kind = "a whole number" if step == 1 else f"a multiple of {step}"
+        raise SurfaceError(f"{name} must be {kind}, at least {least}, not {value!r}")
+    return int(value)
+
+
+def positive(name: str, value: float) -> float:
+    """Return `value` as a float; raises SurfaceError unless it is positive and finite."""
+    if not isinstance(value, (int, float)) or not math.isfinite(value) or value <= 0:
+        raise SurfaceError(f"{name} must be a positive number, not {value!r}")
+    return float(value)
+
+
+def affordable(n_vertices: float) -> None:
+    """Raise SurfaceError when a surface would be larger than any computation here can take."""
+    if n_vertices > MOST_VERTICES:
+        raise SurfaceError(
+            f"a surface of {n_vertices:.2g} vertices is too fine",
+            f"at most {MOST_VERTICES}",
+            "choose coarser triangles",
+        )

@@ -1,0 +1,165 @@
+"""Built-in surfaces in space: spheres and what is made from them, tori, cylinders."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from scipy.spatial import ConvexHull
+
+from solvers.errors import SurfaceError
+from solvers.primitives.checks import affordable, positive, whole
+from solvers.primitives.lattices import grid, rings, subdivide
+from solvers.primitives.planar import fill
+from solvers.surface import TriSurface
+from solvers.triangulation import FloatArray, IntArray
+
+
+def sphere(subdivisions: int = 4, radius: float = 1.0) -> TriSurface:
+    """Return an icosahedron, each triangle split in four `subdivisions` times, blown up."""
+    vertices, faces = _icosphere(subdivisions)
+    return TriSurface(positive("radius", radius) * vertices, faces)
+
+
+def cube_sphere(n: int = 24, radius: float = 1.0) -> TriSurface:
+    """Return a sphere with the symmetry of the cube, whose corners are vertices.
+
+    Parameters
+    ----------
+    n : int, optional
+        Cells along each edge of the cube; even.
+    radius : float, optional
+        Of the sphere.
+    """
+    n = whole("n", n, 2, 2)
+    affordable(6.0 * n * n)
+    odd = 2 * np.arange(n + 1) - n
+    x, y = (a.reshape(-1) for a in np.meshgrid(odd, odd))
+    face = np.column_stack([x, y, np.full_like(x, n)])
+    turns = [np.roll(np.eye(3, dtype=int), k, axis=1) for k in range(3)]
+    turns += [turn * [[-1], [1], [-1]] for turn in turns]
+    places = np.concatenate([face @ turn for turn in turns])
+    faces = np.concatenate([grid(n, n) + k * len(face) for k in range(6)])
+    places, number = np.unique(places, axis=0, return_inverse=True)
+    # equal angles along the cube's edges; odd in the place, so that mirror images match exactly
+    angle = np.sign(places) * (np.abs(places) * (0.25 * math.pi / n))
+    on_cube = np.where(np.abs(places) == n, np.sign(places), np.tan(angle))
+    squares = np.sort(on_cube**2, axis=1)
+    length = np.sqrt(squares[:, 0] + squares[:, 1] + squares[:, 2])
+    return TriSurface(
+        positive("radius", radius) * on_cube / length[:, None], number.reshape(-1)[faces]
+    )
+
+
+def ellipsoid(x: float = 1.5, y: float = 1.0, z: float = 0.75, subdivisions: int = 4) -> TriSurface:
+    """Return an ellipsoid with the given half axes."""
+    vertices, faces = _icosphere(subdivisions)
+    axes = [positive(name, value) for name, value in (("x", x), ("y", y), ("z", z))]
+    return TriSurface(vertices * axes, faces)
+
+
+def blob(waves: float = 0.3, subdivisions: int = 4) -> TriSurface:
+    """Return a closed wavy surface: a sphere of radius 1 + waves * (a cubic of the direction)."""
+    if not isinstance(waves, (int, float)) or not 0 <= waves <= 0.6:
+        raise SurfaceError(f"waves must be a number from 0 to 0.6, not {waves!r}")
+    vertices, faces = _icosphere(subdivisions)
+    x, y, z = vertices.T
+    height = x**3 - 3 * x * y**2 + 1.5 * z * (x**2 - y**2) - 0.8 * y * z
+    return TriSurface((1 + waves * height)[:, None] * vertices, faces)
+
+
+def cylinder(radius: float = 1.0, height: float = 2.0, n: int = 64) -> TriSurface:
+    """Return an open cylinder about the z axis with n vertices on each circle."""
+    n = whole("n", n, 3)
+    radius, height = positive("radius", radius), positive("height", height)
+    rows = max(round(height / (math.sqrt(0.75) * 2 * math.pi * radius / n)), 1) + 1
+    affordable(rows * n)
+    faces, angle = rings(n, rows)
+    z = np.repeat(height * (np.arange(rows) / (rows - 1) - 0.5), n)
+    vertices = np.column_stack([radius * np.cos(angle.ravel()), radius * np.sin(angle.ravel()), z])
+    return TriSurface(vertices, faces)
+
+
+def torus(major: float = 1.0, minor: float = 0.4, n: int = 72) -> TriSurface:
+    """Return a torus about the z axis.
+
+    Its triangles are nearly equilateral and similar, larger on the outside: a regular pattern in
+    conformal coordinates.
+
+    Parameters
+    ----------
+    major, minor : float, optional
+        Radius of the tube's centre line, and of the tube.
+    n : int, optional
+        Vertices around the axis.
+    """
+    plane, faces = _torus_pattern(major, minor, n)
+    return TriSurface(_on_torus(plane, major, minor), faces)
+
+
+def torus_with_hole(
+    major: float = 1.0, minor: float = 0.4, n: int = 72, hole: float = 0.35
+) -> TriSurface:
+    """Return a torus with one boundary: a round hole of about the given radius on the outside."""
+    plane, faces = _torus_pattern(major, minor, n)
+    step = 2 * math.pi / n
+    radius = positive("hole", hole) / (major + minor)
+    reach = radius + 2.5 * step
+    if reach > min(math.pi, -plane[0, 1]) - 2 * step:
+        raise SurfaceError(f"a hole of radius {hole:g} does not fit on the torus")
+    away = np.hypot(plane[:, 0] - math.pi, plane[:, 1])
+    kept = (away[faces] > reach).all(axis=1)
+    (rim,) = TriSurface(np.insert(plane, 2, 0, axis=1), faces[~kept], trusted=True).boundary_loops
+    around = max(round(2 * math.pi * radius / step), 12)
+    angle = -np.arange(around) * (2 * math.pi / around)
+    circle = [math.pi, 0.0] + radius * np.column_stack([np.cos(angle), np.sin(angle)])
+    between = np.setdiff1d(faces[~kept], rim)
+    between = between[away[between] > radius + 0.7 * step]
+    points, patch = fill([plane[rim], circle], plane[between])
+    place = np.concatenate([rim, len(plane) + np.arange(around), between])
+    plane = np.concatenate([plane, circle])
+    plane[place] = points
+    used, corner = np.unique(np.concatenate([faces[kept], place[patch]]), return_inverse=True)
+    # the hole faces the usual point of view
+    turned = plane[used] - [0.75 * math.pi, 0.0]
+    return TriSurface(_on_torus(turned, major, minor), corner.reshape(-1, 3))
+
+
+def _icosphere(subdivisions: int) -> tuple[FloatArray, IntArray]:
+    subdivisions = whole("subdivisions", subdivisions, 0)
+    affordable(10.0 * 4.0 ** min(subdivisions, 99))
+    golden = 0.5 + math.sqrt(1.25)
+    signs = np.array([[1, 1], [1, -1], [-1, 1], [-1, -1]])
+    rectangle = np.column_stack([np.zeros(4), signs * [1, golden]])
+    vertices = np.concatenate([np.roll(rectangle, k, axis=1) for k in range(3)])
+    faces = ConvexHull(vertices).simplices.astype(np.int64)
+    inward = np.linalg.det(vertices[faces]) < 0
+    faces[inward] = faces[inward][:, ::-1]
+    for _ in range(subdivisions):
+        vertices, faces = subdivide(vertices, faces)
+        vertices /= np.linalg.norm(vertices, axis=1)[:, None]
+    return vertices / np.linalg.norm(vertices, axis=1)[:, None], faces
+
+
+def _torus_pattern(major: float, minor: float, n: int) -> tuple[FloatArray, IntArray]:
+    """Return a triangular lattice in the torus' conformal coordinates (n, 2), and its faces."""
+    n = whole("n", n, 3)
+    if positive("minor", minor) >= positive("major", major):
+        raise SurfaceError(f"minor radius {minor:g} is not below the major radius {major:g}")
+    period = 2 * math.pi * minor / math.sqrt(major**2 - minor**2)
+    rows = max(2 * round(0.5 * period / (math.sqrt(0.75) * 2 * math.pi / n)), 4)
+    affordable(rows * n)
+    faces, angle = rings(n, rows, closed=True)
+    tube = np.repeat(period * (np.arange(rows) / rows - 0.5), n)
+    return np.column_stack([angle.reshape(-1), tube]), faces
+
+
+def _on_torus(plane: FloatArray, major: float, minor: float) -> FloatArray:
+    """Return places on the torus of conformal coordinates: angle about the axis, and tube.
+
+    The tube's coordinate is the integral of minor d(phi) / (major + minor cos(phi)).
+    """
+    along = np.tan(0.5 * plane[:, 1] * math.sqrt(major**2 - minor**2) / minor)
+    phi = 2 * np.arctan(math.sqrt((major + minor) / (major - minor)) * along)
+    r = major + minor * np.cos(phi)
+    return np.column_stack([r * np.cos(plane[:, 0]), r * np.sin(plane[:, 0]), minor * np.sin(phi)])
