@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 import pyvista as pv
 
 from crossview.scene.axes import AxesLayer
@@ -132,9 +131,9 @@ def _drawable(points: FloatArray | None, faces: IntArray | None) -> Triangles | 
     """Return the triangles with their numbers kept and none that would upset the renderer."""
     if points is None or faces is None or not len(points) or not len(faces):
         return None
-    finite: npt.NDArray[np.bool_] = np.isfinite(points).all(axis=1)
+    finite = np.logical_and.reduce(np.isfinite(points), axis=1)
     if not finite.any():
         return None
     points = np.where(finite[:, None], points, points[finite].mean(axis=0))
-    inside: npt.NDArray[np.bool_] = ((faces >= 0) & (faces < len(points))).all(axis=1)
+    inside = np.logical_and.reduce((faces >= 0) & (faces < len(points)), axis=1)
     return Triangles(points, np.where(inside[:, None], faces, 0))
