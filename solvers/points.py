@@ -19,14 +19,3 @@ class SurfacePoint:
 
     face: int
     barycentric: tuple[float, float, float]
-
-    def corner(self, tolerance: float = 1e-9) -> int | None:
-        """Return the corner (0, 1, 2) the point coincides with, or None.
-
-        Parameters
-        ----------
-        tolerance : float
-            How far the corner's weight may be from 1.
-        """
-        weight = max(self.barycentric)
-        return self.barycentric.index(weight) if weight >= 1.0 - tolerance else None

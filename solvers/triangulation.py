@@ -26,6 +26,34 @@ def wrap(angle: FloatArray, period: float) -> FloatArray:
     return np.asarray(-(np.remainder(0.5 * period - angle, period) - 0.5 * period))
 
 
+def laid_out(lengths: FloatArray) -> FloatArray:
+    """Lay triangles out in the plane.
+
+    Parameters
+    ----------
+    lengths : (k, 3) float array
+        Length of each side, from corner i to corner i + 1.
+
+    Returns
+    -------
+    (k, 3, 2) float array
+        Corners: the first at the origin, the second on the x axis, the third above it.
+    """
+    first, second, third = lengths.T
+    flat = np.zeros((len(lengths), 3, 2))
+    flat[:, 1, 0] = first
+    flat[:, 2, 0] = (first**2 + third**2 - second**2) / (2 * first)
+    flat[:, 2, 1] = 2 * heron(lengths) / first
+    return flat
+
+
+def heron(lengths: FloatArray) -> FloatArray:
+    """Return the areas of triangles with sides (k, 3), by Kahan's stable form of the formula."""
+    a, b, c = np.sort(lengths, axis=1).T[::-1]
+    product = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c))
+    return 0.25 * np.sqrt(np.maximum(product, 0.0))
+
+
 class IntrinsicTriangulation:
     """An oriented manifold triangulation with edge lengths.
 
@@ -77,10 +105,8 @@ class IntrinsicTriangulation:
 
     @cached_property
     def areas(self) -> FloatArray:
-        """(m,) triangle areas, by Kahan's stable form of Heron's formula."""
-        a, b, c = np.sort(self.lengths, axis=1).T[::-1]
-        product = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c))
-        return 0.25 * np.sqrt(np.maximum(product, 0.0))
+        """(m,) triangle areas."""
+        return heron(self.lengths)
 
     @cached_property
     def cotangents(self) -> FloatArray:
@@ -123,11 +149,7 @@ class IntrinsicTriangulation:
     @cached_property
     def corner_positions(self) -> FloatArray:
         """(m, 3, 2) corners of each face laid out in its own frame."""
-        flat = np.zeros((self.n_faces, 3, 2))
-        flat[:, 1, 0] = self.lengths[:, 0]
-        flat[:, 2, 0] = self.lengths[:, 2] * np.cos(self.angles[:, 0])
-        flat[:, 2, 1] = self.lengths[:, 2] * np.sin(self.angles[:, 0])
-        return flat
+        return laid_out(self.lengths)
 
     @cached_property
     def curvatures(self) -> FloatArray:

@@ -1,0 +1,76 @@
+"""The result of every solver: a cross-field with its scales and its own consistency measure."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from solvers.singularities import Singularity
+from solvers.surface import TriSurface
+from solvers.triangulation import FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class CrossField:
+    """A cross in each triangle of a surface.
+
+    Parameters
+    ----------
+    surface : TriSurface
+        Where.
+    singularities : tuple of Singularity
+        The imposed configuration.
+    corners : mapping of int to int
+        Index of each boundary vertex where the field turns.
+    method : str
+        The solver's name.
+    H : (n,) float array
+        Logarithm of the size at each vertex, with area-weighted mean zero (paper, L = e^H).
+    theta : (m,) float array
+        Angle of u at each barycentre against the triangle's first edge, radians.
+    defects : (2 g + max(b - 1, 0),) float array
+        Holonomy defect of each condition of the surface, radians in (-pi/4, pi/4].
+    boundary_misalignment : (b,) float array
+        Largest angle between the crosses and each boundary loop, with sign, radians.
+    residual : float
+        Largest residual of the system for H, relative to its terms.
+    max_closing_error : float
+        Largest angle, over all edges, by which the crosses of two triangles fail to differ by
+        whole quarter turns (and the defect of the handle loop, for edges on one), radians.
+    """
+
+    surface: TriSurface
+    singularities: tuple[Singularity, ...]
+    corners: Mapping[int, int]
+    method: str
+    H: FloatArray = field(repr=False)
+    theta: FloatArray = field(repr=False)
+    defects: FloatArray
+    boundary_misalignment: FloatArray
+    residual: float
+    max_closing_error: float
+
+    @cached_property
+    def u(self) -> FloatArray:
+        """(m, 3) unit vector of the cross's first branch at each barycentre."""
+        along, across = self.surface.face_frames
+        return np.cos(self.theta)[:, None] * along + np.sin(self.theta)[:, None] * across
+
+    @cached_property
+    def v(self) -> FloatArray:
+        """(m, 3) unit vector of the second branch, 90 degrees from the first."""
+        along, across = self.surface.face_frames
+        return np.cos(self.theta)[:, None] * across - np.sin(self.theta)[:, None] * along
+
+    @property
+    def index_sum(self) -> int:
+        """Sum of the indices of singularities and corners."""
+        return sum(s.index for s in self.singularities) + sum(self.corners.values())
+
+    @property
+    def index_required(self) -> int:
+        """Four times the Euler characteristic."""
+        return 4 * self.surface.euler_characteristic

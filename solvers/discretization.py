@@ -1,0 +1,246 @@
+"""What a surface contributes to every solve: its Delaunay triangulation, loops and walk."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal
+
+import numpy as np
+
+from solvers.delaunay import DelaunayTriangulation, Located
+from solvers.homology import DualTree, HandleLoops, handle_loops
+from solvers.points import SurfacePoint
+from solvers.surface import TriSurface
+from solvers.triangulation import FloatArray, IntArray, IntrinsicTriangulation, wrap
+
+QUARTER = np.pi / 2
+
+VERTEX_TOLERANCE = 1e-9
+"""Barycentric weight by which a point may miss a vertex and still count as on it."""
+
+
+@dataclass(frozen=True)
+class Condition:
+    """One of the 2 g + max(b - 1, 0) conditions a configuration must meet to be valid.
+
+    Parameters
+    ----------
+    kind : {"boundary", "loop"}
+        Alignment with a further boundary, or closing along a handle loop.
+    label : str
+        In plain words.
+    path : (k,) int array
+        Vertices of the loop or boundary, the first repeated at the end.
+    halfedge : int
+        Where it is read off: a halfedge of the loop or boundary.
+    """
+
+    kind: Literal["boundary", "loop"]
+    label: str
+    path: IntArray
+    halfedge: int
+
+
+class Discretization:
+    """The intrinsic Delaunay triangulation of a surface and the tree to walk it by.
+
+    Handle loops are edges of the surface and of the triangulation; the walk does not cross them.
+
+    Parameters
+    ----------
+    surface : TriSurface
+        The surface.
+
+    Attributes
+    ----------
+    surface : TriSurface
+        The surface.
+    handles : HandleLoops
+        Handle loops of the surface.
+    conditions : tuple of Condition
+        The holonomy conditions, handles first; halfedges are the triangulation's.
+    delaunay : DelaunayTriangulation
+        The flips from the surface to `triangulation`.
+    chain : (2 g, 3 m) int array
+        Halfedges of the handle loops on the triangulation, as in `HandleLoops`.
+    tree : DualTree
+        The walk, from the reference boundary halfedge (or face 0 of a closed surface).
+    reference : int
+        Halfedge of the longest boundary the crosses are aligned with; -1 on closed surfaces.
+    """
+
+    def __init__(self, surface: TriSurface) -> None:
+        self.surface = surface
+        own = surface.triangulation
+        loops = surface.boundary_loops
+        self.handles = (
+            handle_loops(own, loops)
+            if surface.genus
+            else HandleLoops(np.zeros((0, len(own.twin)), dtype=np.int64), np.zeros(0, int), ())
+        )
+        starts = self._boundary_starts(own)
+        marks = np.zeros((1, len(own.twin)), dtype=np.int64)
+        marked = np.array([*starts, *self.handles.closing], dtype=np.int64)
+        marks[0, marked] = np.arange(1, len(marked) + 1)
+        self.delaunay = DelaunayTriangulation(
+            own, self.handles.chain.any(axis=0), np.concatenate([self.handles.chain, marks])
+        )
+        self.triangulation: IntrinsicTriangulation = self.delaunay.triangulation
+        self.chain = self.delaunay.chain[:-1]
+        place = np.flatnonzero(self.delaunay.chain[-1])
+        moved = place[np.argsort(self.delaunay.chain[-1, place])].tolist()
+        self.reference = moved[0] if starts else -1
+        self.conditions = tuple(self._conditions(moved[: len(starts)], moved[len(starts) :]))
+        self.tree = DualTree(
+            self.triangulation, max(self.reference, 0) // 3, self.chain.any(axis=0)
+        )
+
+    def _boundary_starts(self, own: IntrinsicTriangulation) -> list[int]:
+        """Return the halfedge that leaves the first vertex of each boundary loop."""
+        h = own.boundary_halfedges
+        leaving = dict(zip(own.tail[h].tolist(), h.tolist(), strict=True))
+        return [leaving[int(loop[0])] for loop in self.surface.boundary_loops]
+
+    def _conditions(self, starts: list[int], closing: list[int]) -> Iterator[Condition]:
+        for i, (h, path) in enumerate(zip(closing, self.handles.paths, strict=True)):
+            which = "first" if i % 2 == 0 else "second"
+            yield Condition("loop", f"handle {i // 2 + 1}, {which} loop", path, h)
+        loops = self.surface.boundary_loops
+        for i, (h, loop) in enumerate(zip(starts[1:], loops[1:], strict=True), start=2):
+            label = "around the inner boundary" if len(loops) == 2 else f"around boundary {i}"
+            yield Condition("boundary", label, np.append(loop, loop[0]), h)
+
+    def dual_path(self, condition: Condition) -> IntArray:
+        """Return the path over which a condition is read off, as a closed 1-form.
+
+        Parameters
+        ----------
+        condition : Condition
+            One of `conditions`.
+
+        Returns
+        -------
+        (3 m,) int array
+            How often the path crosses each halfedge from its triangle outwards, less inwards.
+        """
+        tree, h = self.tree, condition.halfedge
+        across = np.array([h])
+        if condition.kind == "loop":
+            back = tree.path(int(self.triangulation.twin[h]) // 3)
+            return tree.form([(tree.path(h // 3), 1), (across, 1), (back, -1)])
+        start = np.array([self.reference])
+        return tree.form([(start, -1), (tree.path(h // 3), 1), (across, 1)])
+
+    @cached_property
+    def boundary_loop_of(self) -> tuple[IntArray, IntArray]:
+        """The boundary halfedges of the triangulation, and the loop each lies on."""
+        loop_of = np.full(self.surface.n_vertices, -1, dtype=np.int64)
+        for number, loop in enumerate(self.surface.boundary_loops):
+            loop_of[loop] = number
+        h = self.triangulation.boundary_halfedges
+        return h, loop_of[self.triangulation.tail[h]]
+
+    def place(self, points: Sequence[SurfacePoint]) -> tuple[IntArray, FloatArray]:
+        """Return where points of the surface lie on the triangulation.
+
+        Parameters
+        ----------
+        points : sequence of SurfacePoint
+            Points of the surface.
+
+        Returns
+        -------
+        faces : (k,) int array
+            A triangle of each.
+        weights : (k, 3) float array
+            Barycentric weights in it; exactly 1 and 0 for vertices.
+        """
+        t = self.triangulation
+        faces = np.array([p.face for p in points], dtype=np.int64)
+        weights = np.array([p.barycentric for p in points]).reshape(-1, 3)
+        flat = np.einsum(
+            "ki,kij->kj", weights, self.surface.triangulation.corner_positions[faces]
+        )
+        located = self.delaunay.locate(faces, flat)
+        corners = t.corner_positions[located.face]
+        third = located.place[:, 1] / corners[:, 2, 1]
+        second = (located.place[:, 0] - third * corners[:, 2, 0]) / corners[:, 1, 0]
+        inside = np.maximum(np.stack([1 - second - third, second, third], axis=1), 0.0)
+        inside /= inside.sum(axis=1)[:, None]
+        nearest = np.argmax(inside, axis=1)
+        at_vertex = inside[np.arange(len(faces)), nearest] >= 1 - VERTEX_TOLERANCE
+        inside[at_vertex] = np.eye(3)[nearest[at_vertex]]
+        return located.face, inside
+
+    @cached_property
+    def barycentres(self) -> Located:
+        """Where the barycentre and frame of each triangle of the surface lie."""
+        centres = self.surface.triangulation.corner_positions.mean(axis=1)
+        return self.delaunay.locate(np.arange(self.surface.n_faces), centres)
+
+    def walk(self, offsets: FloatArray) -> FloatArray:
+        """Carry the cross from the reference to every triangle.
+
+        Parameters
+        ----------
+        offsets : (m, 3) float array
+            How far the field turns from each triangle's barycentre to its edge midpoints.
+
+        Returns
+        -------
+        (m,) float array
+            theta at the barycentres in the frames of the triangulation, radians. At the
+            reference halfedge u points along the boundary; on a closed surface theta is 0 in
+            the first triangle.
+        """
+        t, offset = self.triangulation, offsets.reshape(-1)
+        crossing = self.tree.crossing
+        steps = self._tree_transport + offset[crossing] - offset[t.twin[crossing]]
+        h = self.reference
+        start = float(t.directions[h] - offset[h]) if h >= 0 else 0.0
+        return self.tree.accumulate(start, steps)
+
+    @cached_property
+    def _tree_transport(self) -> FloatArray:
+        return self.triangulation.transport[self.tree.crossing]
+
+    def closing(self, theta: FloatArray, offsets: FloatArray, h: IntArray) -> FloatArray:
+        """Return by how much theta fails to continue over halfedges, in (-pi/4, pi/4].
+
+        Over inner halfedges: how far the cross carried over from the left turns against the
+        cross on the right. On the boundary: how far it turns against the boundary.
+        """
+        t, offset = self.triangulation, offsets.reshape(-1)
+        g = t.twin[h]
+        beyond = np.where(g >= 0, theta[g // 3] + offset[g] - t.transport[h], t.directions[h])
+        return wrap(theta[h // 3] + offset[h] - beyond, QUARTER)
+
+    def defects(self, theta: FloatArray, offsets: FloatArray) -> FloatArray:
+        """Return the holonomy defects of a walk, in the order of the conditions."""
+        h = np.array([c.halfedge for c in self.conditions], dtype=np.int64)
+        return self.closing(theta, offsets, h)
+
+    def max_closing_error(
+        self, theta: FloatArray, offsets: FloatArray, defects: FloatArray
+    ) -> float:
+        """Return the largest failure to close over all inner edges.
+
+        Edges on handle loops are expected to close up to the defects of those loops.
+        """
+        t = self.triangulation
+        h = t.edge_halfedges[t.twin[t.edge_halfedges] >= 0]
+        error = self.closing(theta, offsets, h)
+        if len(self.chain):
+            error = wrap(error - defects[: len(self.chain)] @ self.chain[:, h], QUARTER)
+        return float(np.abs(error).max(initial=0.0))
+
+    def boundary_misalignment(self, theta: FloatArray, offsets: FloatArray) -> FloatArray:
+        """Return the largest angle, with its sign, between crosses and each boundary loop."""
+        h, loop = self.boundary_loop_of
+        angle = self.closing(theta, offsets, h)
+        largest = np.zeros(len(self.surface.boundary_loops))
+        by_size = np.argsort(np.abs(angle), kind="stable")
+        largest[loop[by_size]] = angle[by_size]
+        return largest

@@ -1,0 +1,91 @@
+"""Which configurations are valid: holonomy defects by look-up (Abel-Jacobi).
+
+A configuration that meets the index budget has a boundary-aligned, consistent isotropic field
+exactly when every defect is zero (paper, section "Valid singularity configurations").
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from solvers.discretization import QUARTER, Condition, Discretization
+from solvers.factorization import Factorization
+from solvers.singularities import Singularity
+from solvers.triangulation import FloatArray, wrap
+
+
+class Holonomy:
+    """The holonomy defects of any configuration on one surface.
+
+    For each condition i with dual path gamma_i, the holonomy potential Z_i solves
+    S Z_i = B^T w gamma_i. The path's rotation is linear in H, and S H = K - (pi/2) k, so
+
+        r_i = wrap(transport_i - Z_i . K + (pi/2) sum_j k_j Z_i(x_j))
+
+    One back-substitution a condition, once; then a table look-up a configuration.
+
+    Parameters
+    ----------
+    discretization : Discretization
+        The surface.
+    factorization : Factorization
+        Of the stiffness matrix without its first row and column.
+    corners : mapping of int to int
+        Index of each boundary vertex where the field turns.
+    """
+
+    def __init__(
+        self,
+        discretization: Discretization,
+        factorization: Factorization,
+        corners: Mapping[int, int],
+    ) -> None:
+        self._discretization = discretization
+        t = discretization.triangulation
+        h = t.edge_halfedges
+        forms = np.zeros((len(self.conditions), len(t.twin)), dtype=np.int64)
+        for row, condition in zip(forms, self.conditions, strict=True):
+            row[:] = discretization.dual_path(condition)
+        nodal = np.zeros((len(self.conditions), t.n_vertices))
+        for values, form in zip(nodal, forms, strict=True):
+            flow = form[h] * t.weights[h]
+            q = np.bincount(t.head[h], flow, t.n_vertices) - np.bincount(
+                t.tail[h], flow, t.n_vertices
+            )
+            values[1:] = factorization.solve(q[1:])
+        level = np.zeros((t.n_faces, 3))
+        curvature = t.curvatures.copy()
+        for vertex, index in corners.items():
+            curvature[vertex] -= QUARTER * index
+        transported = discretization.defects(discretization.walk(level), level)
+        self._constant = transported - nodal @ curvature
+        jumps = forms.reshape(len(forms), t.n_faces, 3)
+        # Along a halfedge Z changes by the nodal difference less the jump across the path.
+        self._corner_values = nodal[:, t.faces]
+        self._corner_values[:, :, 1] -= jumps[:, :, 0]
+        self._corner_values[:, :, 2] -= jumps[:, :, 0] + jumps[:, :, 1]
+
+    @property
+    def conditions(self) -> tuple[Condition, ...]:
+        """The 2 g + max(b - 1, 0) conditions."""
+        return self._discretization.conditions
+
+    def defects(self, singularities: Sequence[Singularity]) -> FloatArray:
+        """Return the defects of a configuration, without solving.
+
+        Parameters
+        ----------
+        singularities : sequence of Singularity
+            Anywhere on the surface.
+
+        Returns
+        -------
+        (2 g + max(b - 1, 0),) float array
+            Radians in (-pi/4, pi/4]; meaningful when the index budget is met.
+        """
+        faces, weights = self._discretization.place([s.point for s in singularities])
+        index = np.array([s.index for s in singularities], dtype=np.float64)
+        potential = np.einsum("ckj,kj->ck", self._corner_values[:, faces], weights)
+        return wrap(self._constant + QUARTER * potential @ index, QUARTER)
