@@ -1,3 +1,5 @@
-"""Crossview: impose singularities on a surface, see the cross-field and whether it is valid."""
+"""Impose singularities on a surface, solve its boundary-aligned cross-field, and see it live."""
 
-__version__ = "0.1.0"
+from importlib.metadata import version
+
+__version__ = version("crossview")

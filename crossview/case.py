@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from crossview.jsonfield import CaseError, JsonField, nearest, read_json
+from crossview.staging import staged
 from solvers.primitives import BUILTIN
 
 METHODS = ("isotropic",)
@@ -68,11 +69,15 @@ class Options:
     component : int, str or None
         Of a surface in several pieces: "largest", a number (0 is the largest) or "all";
         None refuses such a surface.
+    repair : bool
+        Also make repairs that change the surface: drop degenerate and duplicate triangles, cut
+        non-manifold edges and vertices apart.
     """
 
     tolerance_degrees: float = 0.01
     refine: int = 3
     component: int | str | None = None
+    repair: bool = False
 
 
 @dataclass(frozen=True)
@@ -148,18 +153,13 @@ class Case:
 
         Raises
         ------
-        CaseError
+        CrossviewError
             The file cannot be written.
         """
         path = Path(path)
         text = json.dumps(self.to_json(path.parent), indent=2, ensure_ascii=False) + "\n"
-        partial = path.with_name(path.name + ".part")
-        try:
-            partial.write_text(text, encoding="utf-8")
-            partial.replace(path)
-        except OSError as error:
-            partial.unlink(missing_ok=True)
-            raise CaseError(f"cannot write the case, {error.strerror}", str(path)) from error
+        with staged(path.parent) as staging:
+            (staging / path.name).write_text(text, encoding="utf-8")
 
 
 def check_method(name: str, where: str) -> str:
@@ -179,9 +179,7 @@ def check_method(name: str, where: str) -> str:
 
 def _case(root: JsonField, base: Path) -> Case:
     """The case at the root of a JSON document."""
-    members = root.object(
-        ["surface"], ["singularities", "corners", "method", "options", "title"]
-    )
+    members = root.object(["surface"], ["singularities", "corners", "method", "options", "title"])
     case: dict[str, Any] = {"surface": _surface(members["surface"], base)}
     if "singularities" in members:
         case["singularities"] = tuple(map(_singularity, members["singularities"].items()))
@@ -206,7 +204,7 @@ def _surface(entry: JsonField, base: Path) -> str | Builtin:
         return _builtin(name, members)
     path = base / entry.text()
     if entry.value in BUILTIN and not path.exists():
-        return Builtin(entry.value)
+        return _builtin(entry, {})
     return os.path.normpath(path)
 
 
@@ -254,12 +252,19 @@ def _options(entry: JsonField) -> Options:
     if (refine := members.get("refine")) is not None:
         options["refine"] = refine.integer("refine", least=0, most=MOST_REFINE)
     if (component := members.get("component")) is not None:
-        if isinstance(component.value, str) and component.value not in ("largest", "all"):
-            remedy = 'write "largest", "all" or a number (0 is the largest)'
-            raise component.error(f'unknown component "{component.value}"', remedy)
-        named = isinstance(component.value, str)
-        options["component"] = component.value if named else component.integer("component", 0)
+        options["component"] = _component(component)
+    if (repair := members.get("repair")) is not None:
+        options["repair"] = repair.boolean()
     return Options(**options)
+
+
+def _component(entry: JsonField) -> int | str:
+    if not isinstance(entry.value, str):
+        return entry.integer("component", least=0)
+    if entry.value not in ("largest", "all"):
+        remedy = 'write "largest", "all" or a number (0 is the largest)'
+        raise entry.error(f'unknown component "{entry.value}"', remedy)
+    return entry.value
 
 
 def _relative(surface: str, base: Path) -> str:

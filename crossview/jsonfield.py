@@ -96,9 +96,7 @@ class JsonField:
         wanted = "a list" if length is None else f"a list of {length} numbers"
         if not isinstance(self.value, list) or (length is not None and len(self.value) != length):
             raise self.error(f"expected {wanted}, found {_shown(self.value)}")
-        return [
-            JsonField(v, self.file, f"{self.keys}[{i}]") for i, v in enumerate(self.value)
-        ]
+        return [JsonField(v, self.file, f"{self.keys}[{i}]") for i, v in enumerate(self.value)]
 
     def number(self) -> float:
         """A finite number."""
