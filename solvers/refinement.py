@@ -1,0 +1,237 @@
+"""Singularities as vertices of a mesh that is finer around them (paper, section "Preliminary
+results", step 2: the adapted mesh).
+
+Triangles near a singularity are split in four, level by level in ever smaller neighbourhoods, their
+neighbours in two or three so that no vertex hangs; the point is then inserted, and edges inside
+the flat original triangles are flipped to Delaunay. The surface's shape and boundary stay as they are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from solvers.delaunay import DelaunayTriangulation
+from solvers.points import SurfacePoint
+from solvers.surface import TriSurface
+from solvers.triangulation import FloatArray, IntArray
+
+SNAP = 1e-9
+"""Barycentric weight below which a point counts as on the edge or vertex it is next to."""
+
+RINGS = 2
+"""How many rings of triangles around a point are split at each level."""
+
+
+@dataclass(frozen=True, eq=False)
+class Refinement:
+    """A refined surface, and where it came from.
+
+    Parameters
+    ----------
+    coarse : TriSurface
+        The original surface.
+    surface : TriSurface
+        The refined one; the original's vertices keep their numbers.
+    vertices : (k,) int array
+        The vertex of the refined surface at each of the inserted points.
+    parent_face : (m,) int array
+        The original triangle that each refined triangle is part of.
+    """
+
+    coarse: TriSurface
+    surface: TriSurface
+    vertices: IntArray
+    parent_face: IntArray
+
+    def lift(self, point: SurfacePoint) -> SurfacePoint:
+        """Return a point of the refined surface as a point of the original."""
+        parent = int(self.parent_face[point.face])
+        corners = self.coarse.vertices[self.coarse.faces[parent]]
+        weights = _barycentric(corners[None], self.surface.position(point))[0]
+        return _surface_point(parent, weights)
+
+
+def refine_at(
+    surface: TriSurface, points: Sequence[SurfacePoint], levels: int = 3
+) -> Refinement:
+    """Return the surface with vertices at the given points and smaller triangles around them.
+
+    Parameters
+    ----------
+    surface : TriSurface
+        What to refine.
+    points : sequence of SurfacePoint
+        Where; on vertices, on edges or inside triangles.
+    levels : int, optional
+        How many times edges are halved near the points; 0 only inserts them.
+
+    Returns
+    -------
+    Refinement
+    """
+    mesh = _Mesh(surface, points)
+    for _ in range(levels if points else 0):
+        mesh.split_in_four(mesh.neighbourhood())
+    inserted = np.array([mesh.insert(i) for i in range(len(points))], dtype=np.int64)
+    mesh.flip_inside_parents()
+    refined = TriSurface(mesh.vertices, mesh.faces, trusted=True)
+    return Refinement(surface, refined, inserted, mesh.parent)
+
+
+class _Mesh:
+    """The arrays while they change, and where the points are among them."""
+
+    def __init__(self, surface: TriSurface, points: Sequence[SurfacePoint]) -> None:
+        self.vertices = surface.vertices
+        self.faces = surface.faces
+        self.parent = np.arange(surface.n_faces)
+        self.at = [p.face for p in points]
+        self.weights = [np.asarray(p.barycentric) for p in points]
+        self.positions = surface.positions(points)
+
+    def neighbourhood(self) -> IntArray:
+        """Return the triangles within a few rings of any of the points."""
+        near = np.unique(self.at)
+        touched = np.zeros(len(self.vertices), dtype=bool)
+        for _ in range(RINGS):
+            touched[self.faces[near]] = True
+            near = np.flatnonzero(touched[self.faces].any(axis=1))
+        return near
+
+    def split_in_four(self, red: IntArray) -> None:
+        """Split triangles at their edges' midpoints, and their neighbours to conform."""
+        on_edge = np.zeros(len(self.vertices), dtype=bool)
+        on_edge[self.faces[red]] = True
+        nearby = np.flatnonzero(on_edge[self.faces].sum(axis=1) >= 2)
+        faces = self.faces[nearby]
+        ends = np.sort(np.stack([faces, faces[:, [1, 2, 0]]], axis=2), axis=2).reshape(-1, 2)
+        key = ends[:, 0] * len(self.vertices) + ends[:, 1]
+        _, first, edge = np.unique(key, return_index=True, return_inverse=True)
+        edge = edge.reshape(-1, 3)
+        marked = np.zeros(len(first), dtype=bool)
+        marked[edge[np.isin(nearby, red)]] = True
+        midpoint = np.full(len(first), -1, dtype=np.int64)
+        midpoint[marked] = len(self.vertices) + np.arange(marked.sum())
+        middles = self.vertices[ends[first[marked]]].mean(axis=1)
+        self.vertices = np.concatenate([self.vertices, middles])
+        pieces, whole = _subdivided(faces, midpoint[edge], self.vertices)
+        self._replace(nearby, pieces, nearby[whole])
+
+    def insert(self, i: int) -> int:
+        """Make a vertex of point i and return its number."""
+        face, weights = self.at[i], self.weights[i]
+        corners = self.faces[face]
+        if weights.max() >= 1 - SNAP:
+            return int(corners[np.argmax(weights)])
+        new = len(self.vertices)
+        self.vertices = np.concatenate([self.vertices, self.positions[i][None]])
+        if weights.min() > SNAP:
+            a, b, c = corners
+            self._replace(
+                np.array([face]),
+                np.array([[a, b, new], [b, c, new], [c, a, new]]),
+                np.array([face] * 3),
+            )
+            return new
+        opposite = int(corners[np.argmin(weights)])
+        ends = corners[corners != opposite]
+        beside = np.flatnonzero(np.isin(self.faces, ends).sum(axis=1) == 2)
+        halves = [
+            np.where(self.faces[beside] == ends[1 - side], new, self.faces[beside])
+            for side in (0, 1)
+        ]
+        self._replace(beside, np.concatenate(halves), np.tile(beside, 2))
+        return new
+
+    def _replace(self, old: IntArray, pieces: IntArray, whole: IntArray) -> None:
+        """Put pieces (k, 3), each part of the face `whole`, in the place of the old faces."""
+        keep = np.ones(len(self.faces), dtype=bool)
+        keep[old] = False
+        number = np.cumsum(keep) - 1
+        kept = int(keep.sum())
+        for i, face in enumerate(self.at):
+            if keep[face]:
+                self.at[i] = int(number[face])
+                continue
+            among = np.flatnonzero(whole == face)
+            weights = _barycentric(self.vertices[pieces[among]], self.positions[i])
+            best = int(np.argmax(weights.min(axis=1)))
+            self.at[i] = kept + int(among[best])
+            self.weights[i] = np.maximum(weights[best], 0.0) / np.maximum(weights[best], 0.0).sum()
+        self.faces = np.concatenate([self.faces[keep], pieces])
+        self.parent = np.concatenate([self.parent[keep], self.parent[whole]])
+
+    def flip_inside_parents(self) -> None:
+        """Flip edges between parts of the same original triangle, which is flat, to Delaunay."""
+        hosts = np.unique(self.parent[self.at])
+        inside = np.flatnonzero(np.isin(self.parent, hosts))
+        if len(inside) == 0:
+            return
+        patch = TriSurface(self.vertices, self.faces[inside], trusted=True).triangulation
+        owner = self.parent[inside]
+        h = np.arange(len(patch.twin))
+        border = (patch.twin < 0) | (owner[patch.twin // 3] != owner[h // 3])
+        flipped = DelaunayTriangulation(patch, border).triangulation
+        self.faces = self.faces.copy()
+        self.faces[inside] = flipped.faces
+
+
+def _subdivided(
+    faces: IntArray, midpoint: IntArray, vertices: FloatArray
+) -> tuple[IntArray, IntArray]:
+    """Split faces (k, 3) at the midpoints (k, 3; -1 for none) of their edges.
+
+    Returns the pieces, and the row of the face each is a part of.
+    """
+    count = (midpoint >= 0).sum(axis=1)
+    rows = np.arange(len(faces))
+    pieces: list[IntArray] = [faces[count == 0]]
+    whole: list[IntArray] = [rows[count == 0]]
+    # Turn each face so that its first edge is the (first) split one, followed by the second.
+    shift = np.where(count == 1, np.argmax(midpoint >= 0, axis=1), 0)
+    shift = np.where(count == 2, (np.argmin(midpoint, axis=1) + 1) % 3, shift)
+    turned = (shift[:, None] + np.arange(3)) % 3
+    v = np.take_along_axis(faces, turned, axis=1).T
+    m = np.take_along_axis(midpoint, turned, axis=1).T
+    diagonal = np.linalg.norm(vertices[m[0]] - vertices[v[2]], axis=1)
+    other = np.linalg.norm(vertices[v[0]] - vertices[m[1]], axis=1)
+    patterns = (
+        (count == 1, ((v[0], m[0], v[2]), (m[0], v[1], v[2]))),
+        (
+            (count == 2) & (diagonal <= other),
+            ((m[0], v[1], m[1]), (v[0], m[0], v[2]), (m[0], m[1], v[2])),
+        ),
+        (
+            (count == 2) & (diagonal > other),
+            ((m[0], v[1], m[1]), (v[0], m[0], m[1]), (v[0], m[1], v[2])),
+        ),
+        (
+            count == 3,
+            ((v[0], m[0], m[2]), (m[0], v[1], m[1]), (m[2], m[1], v[2]), (m[0], m[1], m[2])),
+        ),
+    )
+    for chosen, parts in patterns:
+        for part in parts:
+            pieces.append(np.stack(part, axis=1)[chosen])
+            whole.append(rows[chosen])
+    return np.concatenate(pieces), np.concatenate(whole)
+
+
+def _barycentric(triangles: FloatArray, position: FloatArray) -> FloatArray:
+    """Return the weights (k, 3) of a place in the planes of triangles (k, 3, 3)."""
+    u, v = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
+    normal = np.cross(u, v)
+    to_x = position - triangles[:, 0]
+    squared = (normal**2).sum(axis=1)
+    second = (np.cross(to_x, v) * normal).sum(axis=1) / squared
+    third = (np.cross(u, to_x) * normal).sum(axis=1) / squared
+    return np.stack([1 - second - third, second, third], axis=1)
+
+
+def _surface_point(face: int, weights: FloatArray) -> SurfacePoint:
+    inside = np.maximum(weights, 0.0)
+    inside /= inside.sum()
+    return SurfacePoint(face, (float(inside[0]), float(inside[1]), float(inside[2])))
