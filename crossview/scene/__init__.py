@@ -22,6 +22,7 @@ last one (arrays by identity, all else by equality) and each layer applies what 
 Only the thread that owns the plotter may call the scene.
 """
 
+from crossview.scene.camera import Camera
 from crossview.scene.display import ensure_rendering, software_renderer
 from crossview.scene.field import field_view
 from crossview.scene.scene import Scene
@@ -38,6 +39,7 @@ from crossview.scene.view import (
 
 __all__ = [
     "LAYERS",
+    "Camera",
     "Elements",
     "LayerKind",
     "LayerSettings",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from vtkmodules.vtkRenderingCore import vtkCamera
 
 from crossview.scene.geometry import FloatArray, Triangles
 from solvers.errors import CrossviewError
@@ -46,7 +47,19 @@ class Camera:
     centre: tuple[float, float] = (0.0, 0.0)
     parallel_scale: float | None = None
 
-    def apply(self, camera) -> None:  # type: ignore[no-untyped-def]
+    @classmethod
+    def of(cls, camera: vtkCamera) -> Camera:
+        """Return the state of a VTK camera."""
+        parallel = camera.GetParallelProjection()
+        return cls(
+            camera.GetPosition(),
+            camera.GetFocalPoint(),
+            camera.GetViewUp(),
+            camera.GetWindowCenter(),
+            camera.GetParallelScale() if parallel else None,
+        )
+
+    def apply(self, camera: vtkCamera) -> None:
         """Set a VTK camera."""
         camera.SetPosition(*self.position)
         camera.SetFocalPoint(*self.focus)

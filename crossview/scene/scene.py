@@ -6,7 +6,7 @@ import numpy as np
 import pyvista as pv
 
 from crossview.scene.axes import AxesLayer
-from crossview.scene.camera import Room, camera_for
+from crossview.scene.camera import Camera, Room, camera_for
 from crossview.scene.colors import THEMES, rgb
 from crossview.scene.crosses import CrossesLayer
 from crossview.scene.curves import BoundaryLayer, CutLayer, LoopLayer
@@ -24,6 +24,8 @@ from crossview.scene.singularities import SingularitiesLayer
 from crossview.scene.surface import SurfaceLayer, shown_scalar
 from crossview.scene.view import SceneView
 from crossview.scene.watch import Watch
+
+_KEY_LIGHT = 0.6
 
 
 class Scene:
@@ -85,28 +87,24 @@ class Scene:
         self._view = view
         return True
 
-    def fit(self, camera: str = "auto") -> None:
+    @property
+    def camera(self) -> Camera:
+        """The camera as it is now."""
+        return Camera.of(self._plotter.renderer.GetActiveCamera())
+
+    def fit(self, camera: str | Camera = "auto") -> None:
         """Set the camera so that the surface fills the room between the texts.
 
         Parameters
         ----------
-        camera : str
-            As `camera.camera_for` reads it.
+        camera : str or Camera
+            As `camera.camera_for` reads it; a `Camera` is taken as it is.
         """
         if self._triangles is None:
             return
-        width, height = self._plotter.window_size
-        margin = MARGIN * self._ratio
-        view = self._view
-        room = Room(
-            width,
-            height,
-            left=margin,
-            right=BAR_ROOM * self._ratio if shown_scalar(view) else margin,
-            top=2.2 * margin if view.title else margin,
-            bottom=LEGEND_ROOM * self._ratio if view.singularities else margin,
-        )
-        camera_for(camera, self._triangles, room).apply(self._plotter.renderer.GetActiveCamera())
+        if isinstance(camera, str):
+            camera = camera_for(camera, self._triangles, self._room())
+        camera.apply(self._plotter.renderer.GetActiveCamera())
         self._plotter.renderer.ResetCameraClippingRange()
         # Else pyvista chooses its own view before the first frame.
         self._plotter.camera_set = True
@@ -116,13 +114,31 @@ class Scene:
         for layer in (*self._layers, self._bar):
             layer.remove()
 
+    def _room(self) -> Room:
+        width, height = self._plotter.window_size
+        margin = MARGIN * self._ratio
+        view = self._view
+        return Room(
+            width,
+            height,
+            left=margin,
+            right=BAR_ROOM * self._ratio if shown_scalar(view) else margin,
+            top=2.2 * margin if view.title else margin,
+            bottom=LEGEND_ROOM * self._ratio if view.singularities else margin,
+        )
+
 
 def _light(plotter: pv.BasePlotter) -> None:
-    """Light from over the eye's left shoulder, and some from the eye itself: soft, no gloss."""
+    """Light from over the eye's left shoulder, and some from the eye itself: soft, no gloss.
+
+    What faces the eye is lit by exactly 1: a planar figure shows its colours as they are.
+    """
     plotter.remove_all_lights()
-    key = pv.Light(light_type="camera light", intensity=0.55)
-    key.position = (-0.6, 0.9, 1.4)
-    fill = pv.Light(light_type="headlight", intensity=0.55)
+    position = np.array([-0.5, 0.7, 1.2])
+    key = pv.Light(light_type="camera light", intensity=_KEY_LIGHT)
+    key.position = tuple(position)
+    facing = _KEY_LIGHT * position[2] / np.linalg.norm(position)
+    fill = pv.Light(light_type="headlight", intensity=1.0 - facing)
     for light in (key, fill):
         plotter.add_light(light)
 

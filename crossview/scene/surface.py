@@ -18,6 +18,8 @@ from crossview.scene.watch import Watch
 # Edges sharper than this, in degrees, stay sharp in the shading.
 _FEATURE_ANGLE = 50.0
 _EDGE_COLOR = "#9aa0a8"
+# Light that comes from everywhere; the rest comes from the scene's lights.
+AMBIENT = 0.42
 
 
 class SurfaceLayer:
@@ -36,8 +38,8 @@ class SurfaceLayer:
         style = self._actor.property
         style.SetColor(*rgb(SURFACE))
         style.SetInterpolationToPhong()
-        style.SetAmbient(0.32)
-        style.SetDiffuse(0.72)
+        style.SetAmbient(AMBIENT)
+        style.SetDiffuse(1.0 - AMBIENT)
         style.SetSpecular(0.0)
         style.SetEdgeColor(*rgb(_EDGE_COLOR))
         self.h_range = (-1.0, 1.0)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Any, Literal
@@ -79,7 +79,7 @@ def default_layers() -> Mapping[str, LayerSettings]:
     return MappingProxyType({kind.name: LayerSettings(visible=kind.visible) for kind in LAYERS})
 
 
-def layers_named(names: tuple[str, ...] | list[str]) -> Mapping[str, LayerSettings]:
+def layers_named(names: Sequence[str]) -> Mapping[str, LayerSettings]:
     """Return the default settings with only the layers of these names visible.
 
     Raises
