@@ -17,7 +17,7 @@ AUTOMATIC_NUMBER = 3000
 # Half the length of a middling cross, in distances between crosses.
 _ARM = 0.4
 # exp(H) is shown within these factors of the middling size, so that all stay readable.
-_SMALLEST, _LARGEST = 0.25, 2.5
+_SMALLEST, _LARGEST = 0.3, 1.75
 _LINE_WIDTH = 1.25
 
 
@@ -25,7 +25,7 @@ class CrossesLayer:
     """Lines -u to u and -v to v about the chosen barycentres."""
 
     def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float) -> None:
-        self._actor = MeshActor(plotter, "crosses", towards=60.0)
+        self._actor = MeshActor(plotter, "crosses", towards=30.0)
         self._actor.flat()
         self._actor.color(CROSS)
         self._actor.property.SetLineWidth(_LINE_WIDTH * pixel_ratio)

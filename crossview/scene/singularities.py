@@ -25,14 +25,16 @@ _TOWARDS = 1200.0
 
 # A ball painted by how far its normal leans from the eye: a disc in every view, of the right
 # size and hidden by what is before it.
-_DISC = """//VTK::Light::Impl
-  float facing = clamp(abs(normalVCVSOutput.z), 0.0, 1.0);
+_AWAY = """//VTK::Light::Impl
+  vec3 eye = cameraParallel != 0 ? vec3(0.0, 0.0, 1.0) : normalize(-vertexVC.xyz);
+  float facing = clamp(abs(dot(normalize(normalVCVSOutput), eye)), 0.0, 1.0);
   float away = sqrt(1.0 - facing * facing);
+"""
+_DISC = _AWAY + """
   fragOutput0 = vec4(mix(diffuseColor, vec3({rim}), smoothstep(0.84, 0.88, away)), opacity);
 """
-_RING = """//VTK::Light::Impl
-  float facing = clamp(abs(normalVCVSOutput.z), 0.0, 1.0);
-  if (sqrt(1.0 - facing * facing) < 0.84) discard;
+_RING = _AWAY + """
+  if (away < 0.84) discard;
   fragOutput0 = vec4(diffuseColor, opacity);
 """
 
