@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 IntArray = npt.NDArray[np.int64]
 FloatArray = npt.NDArray[np.float64]
+BoolArray = npt.NDArray[np.bool_]
 
 
 def next_halfedge(h: IntArray) -> IntArray:
@@ -23,7 +24,7 @@ def next_halfedge(h: IntArray) -> IntArray:
 
 def wrap(angle: FloatArray, period: float) -> FloatArray:
     """Return `angle` modulo `period`, in (-period / 2, period / 2]."""
-    return np.asarray(-(np.remainder(0.5 * period - angle, period) - 0.5 * period))
+    return np.asarray(angle - period * np.ceil(angle / period - 0.5))
 
 
 def laid_out(lengths: FloatArray) -> FloatArray:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+import numpy.typing as npt
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
@@ -31,7 +32,7 @@ def problems(vertices: FloatArray, faces: IntArray) -> tuple[SurfaceError, ...]:
         Empty for a good surface; the first is the one to mend first. Checks that need sound
         indices are left out when indices are not sound.
     """
-    broken = tuple(_array_problems(vertices, faces))
+    broken = tuple(array_problems(vertices, faces))
     if broken:
         return broken
     found = list(_element_problems(vertices, faces))
@@ -96,14 +97,19 @@ def fan_labels(twin: IntArray) -> tuple[int, IntArray]:
 
 def listed(elements: IntArray, limit: int = 5) -> str:
     """Return the first few of `elements` as text."""
-    shown = [
-        "-".join(str(v) for v in np.atleast_1d(element)) for element in elements[:limit]
-    ]
+    shown = ["-".join(str(v) for v in np.atleast_1d(element)) for element in elements[:limit]]
     more = f" and {len(elements) - limit} more" if len(elements) > limit else ""
     return ", ".join(shown) + more
 
 
-def _array_problems(vertices: FloatArray, faces: IntArray) -> Iterator[SurfaceError]:
+def counted(number: int, noun: str) -> str:
+    """Return the number with its noun: "1 vertex", "2 vertices"."""
+    plural = noun.removesuffix("vertex") + "vertices" if noun.endswith("vertex") else f"{noun}s"
+    return f"{number} {noun if number == 1 else plural}"
+
+
+def array_problems(vertices: FloatArray, faces: IntArray) -> Iterator[SurfaceError]:
+    """Yield what keeps the arrays from being coordinates and vertex numbers at all."""
     if vertices.ndim != 2 or vertices.shape[1] != 3 or faces.ndim != 2 or faces.shape[1] != 3:
         yield SurfaceError(
             "vertices and faces must have three columns",
@@ -137,11 +143,26 @@ def _array_problems(vertices: FloatArray, faces: IntArray) -> Iterator[SurfaceEr
         )
 
 
-def _element_problems(vertices: FloatArray, faces: IntArray) -> Iterator[SurfaceError]:
+def degenerate_faces(vertices: FloatArray, faces: IntArray) -> npt.NDArray[np.bool_]:
+    """Return the (m,) mask of triangles without area, or too flat to have a direction."""
     a, b, c = (vertices[faces[:, i]] for i in range(3))
     double_area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
     longest = np.max([((q - p) ** 2).sum(axis=1) for p, q in ((a, b), (b, c), (c, a))], axis=0)
-    bad = np.flatnonzero(double_area <= DEGENERATE * longest)
+    return np.asarray(double_area <= DEGENERATE * longest)
+
+
+def duplicate_faces(faces: IntArray) -> npt.NDArray[np.bool_]:
+    """Return the (m,) mask of triangles with the corners of an earlier one."""
+    ordered = np.sort(faces, axis=1)
+    by_corner = np.lexsort(ordered.T)
+    same = (ordered[by_corner[1:]] == ordered[by_corner[:-1]]).all(axis=1)
+    mask = np.zeros(len(faces), dtype=bool)
+    mask[by_corner[1:][same]] = True
+    return mask
+
+
+def _element_problems(vertices: FloatArray, faces: IntArray) -> Iterator[SurfaceError]:
+    bad = np.flatnonzero(degenerate_faces(vertices, faces))
     if len(bad):
         yield SurfaceError(
             f"{len(bad)} degenerate triangles without area",
@@ -150,10 +171,7 @@ def _element_problems(vertices: FloatArray, faces: IntArray) -> Iterator[Surface
             bad,
             "faces",
         )
-    ordered = np.sort(faces, axis=1)
-    by_corner = np.lexsort(ordered.T)
-    same = (ordered[by_corner[1:]] == ordered[by_corner[:-1]]).all(axis=1)
-    bad = np.sort(by_corner[1:][same])
+    bad = np.flatnonzero(duplicate_faces(faces))
     if len(bad):
         yield SurfaceError(
             f"{len(bad)} duplicate triangles",
