@@ -71,6 +71,35 @@ def repair(
         What still keeps the arrays from being one oriented manifold surface. Its elements are
         numbered as in the arrays given, unless `merge`, `aggressive` or `component` changed them.
     """
+    points, triangles, notes = _mended(vertices, faces, merge, aggressive)
+    if component is not None:
+        triangles, note = _choose(len(points), triangles, component)
+        notes += [note] if note else []
+    return Repaired(_surface(points, triangles), tuple(notes))
+
+
+def repair_each(
+    vertices: npt.ArrayLike, faces: npt.ArrayLike, *, merge: bool = False, aggressive: bool = False
+) -> tuple[Repaired, ...]:
+    """Make a surface of every connected component, the largest first.
+
+    Parameters
+    ----------
+    vertices, faces, merge, aggressive
+        As of `repair`; so are the errors raised.
+    """
+    points, triangles, notes = _mended(vertices, faces, merge, aggressive)
+    of_face = face_components(len(points), triangles)
+    return tuple(
+        Repaired(_surface(points, triangles[of_face == number]), tuple(notes))
+        for number in range(int(of_face.max()) + 1)
+    )
+
+
+def _mended(
+    vertices: npt.ArrayLike, faces: npt.ArrayLike, merge: bool, aggressive: bool
+) -> tuple[FloatArray, IntArray, list[str]]:
+    """Return the arrays after all repairs but the choice of a component, and notes on them."""
     points = np.array(vertices, dtype=np.float64)
     triangles = np.array(faces, dtype=np.int64)
     unused = ~np.isin(np.arange(len(points)), triangles)
@@ -84,10 +113,7 @@ def repair(
     for step in steps:
         points, triangles, note = step(points, triangles)
         notes += [note] if note else []
-    if component is not None:
-        triangles, note = _choose(len(points), triangles, component)
-        notes += [note] if note else []
-    return Repaired(_surface(points, triangles), tuple(notes))
+    return points, triangles, notes
 
 
 def _surface(points: FloatArray, triangles: IntArray) -> TriSurface:

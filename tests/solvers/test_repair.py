@@ -5,7 +5,7 @@ import pytest
 
 from solvers.errors import SurfaceError
 from solvers.primitives import annulus, sphere, square, torus
-from solvers.repair import repair
+from solvers.repair import repair, repair_each
 
 
 @pytest.fixture
@@ -15,9 +15,11 @@ def ball():
 
 def soup(surface):
     """Each triangle with three vertices of its own, as STL stores them."""
-    return surface.vertices[surface.faces].reshape(-1, 3), np.arange(3 * surface.n_faces).reshape(
-        -1, 3
-    )
+    return soup_of(surface.vertices, surface.faces)
+
+
+def soup_of(vertices, faces):
+    return vertices[faces].reshape(-1, 3), np.arange(faces.size).reshape(-1, 3)
 
 
 def beside(first, second, shift):
@@ -235,3 +237,11 @@ def test_what_cannot_be_repaired_is_said_in_one_line(vertices, faces, words):
 def test_a_surface_of_nothing_but_flat_triangles_is_empty_after_repair():
     with pytest.raises(SurfaceError, match="empty"):
         repair([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 1, 2]], aggressive=True)
+
+
+def test_each_component_becomes_a_surface_the_largest_first(ball):
+    vertices, faces = beside(ball, torus(n=24), 5)
+    pieces = repair_each(*soup_of(vertices, faces), merge=True)
+    assert [piece.surface.genus for piece in pieces] == [1, 0]
+    assert sum(piece.surface.n_faces for piece in pieces) == len(faces)
+    assert all("merged" in piece.notes[0] for piece in pieces)
