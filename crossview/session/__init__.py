@@ -1,1 +1,5 @@
-"""The open document, its history and its background jobs, without Qt or VTK."""
+"""What the user is working on: the document, its commands, undo and redo, and background jobs.
+
+Neither Qt nor VTK is imported here, so that every behaviour of the window that is not about
+pixels can be tested without a display.
+"""

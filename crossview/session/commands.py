@@ -1,0 +1,116 @@
+"""Everything the user can change, as values: a name for the menu and how it maps a document."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+from crossview.session.document import Document
+from solvers.points import SurfacePoint
+from solvers.singularities import Singularity
+
+MIN_VALENCE = 1
+MAX_VALENCE = 12
+
+
+class Command(Protocol):
+    """One undoable change; `name` completes "Undo ..." in the menu."""
+
+    @property
+    def name(self) -> str:
+        """What the change is called, lower case, singularities numbered from 1."""
+
+    def apply(self, document: Document) -> Document:
+        """Return the changed document."""
+
+
+@dataclass(frozen=True)
+class AddSingularities:
+    """Append singularities; most often one."""
+
+    added: tuple[Singularity, ...]
+
+    @property
+    def name(self) -> str:
+        if len(self.added) == 1:
+            return f"add valence {self.added[0].valence}"
+        return f"add {len(self.added)} singularities"
+
+    def apply(self, document: Document) -> Document:
+        return document.with_singularities((*document.singularities, *self.added))
+
+
+@dataclass(frozen=True)
+class MoveSingularity:
+    """Put a singularity elsewhere on the surface; a whole drag is one of these."""
+
+    index: int
+    point: SurfacePoint
+
+    @property
+    def name(self) -> str:
+        return f"move singularity {self.index + 1}"
+
+    def apply(self, document: Document) -> Document:
+        return _with_changed(document, self.index, point=self.point)
+
+
+@dataclass(frozen=True)
+class ChangeValence:
+    """Give a singularity another valence."""
+
+    index: int
+    valence: int
+
+    @property
+    def name(self) -> str:
+        return f"make singularity {self.index + 1} a valence {self.valence}"
+
+    def apply(self, document: Document) -> Document:
+        return _with_changed(document, self.index, valence=self.valence)
+
+
+@dataclass(frozen=True)
+class LockSingularity:
+    """Keep a singularity where it is, or let it go."""
+
+    index: int
+    locked: bool
+
+    @property
+    def name(self) -> str:
+        return f"{'lock' if self.locked else 'unlock'} singularity {self.index + 1}"
+
+    def apply(self, document: Document) -> Document:
+        return _with_changed(document, self.index, locked=self.locked)
+
+
+@dataclass(frozen=True)
+class RemoveSingularities:
+    """Delete the singularities with these indices."""
+
+    indices: frozenset[int]
+
+    @property
+    def name(self) -> str:
+        if len(self.indices) == 1:
+            return f"delete singularity {min(self.indices) + 1}"
+        return f"delete {len(self.indices)} singularities"
+
+    def apply(self, document: Document) -> Document:
+        kept = (s for i, s in enumerate(document.singularities) if i not in self.indices)
+        return document.with_singularities(tuple(kept))
+
+
+def next_valence(valence: int, step: int) -> int:
+    """Return the valence one step up or down, skipping the regular 4, within the limits."""
+    following = valence + step
+    if following == 4:
+        following += step
+    return following if MIN_VALENCE <= following <= MAX_VALENCE else valence
+
+
+def _with_changed(document: Document, index: int, **changes: object) -> Document:
+    singularities = list(document.singularities)
+    singularities[index] = replace(singularities[index], **changes)  # type: ignore[arg-type]
+    return document.with_singularities(singularities)

@@ -1,0 +1,63 @@
+"""The frozen state of one session: a problem on a surface and where it came from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from crossview.case import Case
+from crossview.problem import Problem
+from solvers.singularities import IndexBudget, Singularity, index_budget
+from solvers.surface import TriSurface
+
+
+@dataclass(frozen=True, eq=False)
+class Document:
+    """What undo and redo move between.
+
+    Parameters
+    ----------
+    name : str
+        What the user calls it: the file or gallery case.
+    problem : Problem
+        Surface, singularities, corners, method and options.
+    corners : mapping of int to int
+        Boundary vertex -> index, chosen once per surface where ``problem.corners`` is None.
+    source : Case
+        What it was opened from; names the surface when the case is saved.
+    """
+
+    name: str
+    problem: Problem
+    corners: Mapping[int, int]
+    source: Case
+
+    @classmethod
+    def from_case(cls, name: str, case: Case) -> Document:
+        """Load the surface of `case` and place its singularities and corners."""
+        problem = Problem.from_case(case)
+        return cls(name, problem, problem.chosen_corners, case)
+
+    def to_case(self) -> Case:
+        """Return the case that opens as this document."""
+        return self.problem.to_case(self.source.surface, self.source.title)
+
+    @property
+    def surface(self) -> TriSurface:
+        """The surface as it was read, before any refinement."""
+        return self.problem.surface
+
+    @property
+    def singularities(self) -> tuple[Singularity, ...]:
+        """The imposed singularities, on `surface`."""
+        return self.problem.singularities
+
+    @cached_property
+    def budget(self) -> IndexBudget:
+        """The index sum against 4 chi (Poincare-Hopf)."""
+        return index_budget(self.surface, self.singularities, self.corners)
+
+    def with_singularities(self, singularities: Sequence[Singularity]) -> Document:
+        """Return the same document with other singularities."""
+        return replace(self, problem=replace(self.problem, singularities=tuple(singularities)))

@@ -1,0 +1,124 @@
+"""Editing while the mouse moves: a kept factor, no refinement.
+
+The surface of the last solution is refined around where its singularities were. While one of them is
+dragged, or a new one is only considered, the others stay at their vertices and the moving one is
+spread over the triangle it is in; the answer costs one back-substitution (the field) or a table
+look-up (the holonomy defects).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from crossview.pipeline import Solution
+from crossview.session.document import Document
+from solvers.crossfield import CrossField
+from solvers.isotropic import IsotropicSolver
+from solvers.points import SurfacePoint
+from solvers.progress import Progress
+from solvers.singularities import Singularity
+from solvers.surface import TriSurface
+
+
+@dataclass(frozen=True, eq=False)
+class LiveBase:
+    """A factored surface, perhaps a refinement of the document's, that edits are tried on.
+
+    Parameters
+    ----------
+    document_surface : TriSurface
+        The surface it serves.
+    solver : IsotropicSolver
+        On `surface`.
+    lift : callable
+        Takes a point of `surface` to the same point of `document_surface`.
+    known : dict of SurfacePoint to SurfacePoint
+        Where points of `document_surface` are on `surface`; grows as points are located.
+    """
+
+    document_surface: TriSurface
+    solver: IsotropicSolver
+    lift: Callable[[SurfacePoint], SurfacePoint]
+    known: dict[SurfacePoint, SurfacePoint] = field(default_factory=dict)
+
+    @classmethod
+    def from_solution(cls, solution: Solution) -> LiveBase:
+        """Keep the factor of `solution`."""
+        given, placed = solution.problem.singularities, solution.singularities
+        known = {s.point: at.point for s, at in zip(given, placed, strict=True)}
+        problem = solution.problem
+        return cls(problem.surface, solution.solver, solution.refinement.lift, known)
+
+    @property
+    def surface(self) -> TriSurface:
+        """The surface that is picked on and solved on."""
+        return self.solver.surface
+
+    def locate(self, point: SurfacePoint) -> SurfacePoint:
+        """Return where `point` of the document's surface is on `surface`."""
+        if self.surface is self.document_surface:
+            return point
+        if point not in self.known:
+            position = self.document_surface.position(point)
+            self.known[point] = self.surface.closest_point(position)
+        return self.known[point]
+
+
+def prepare(document: Document) -> Generator[Progress, None, LiveBase]:
+    """Factor the unrefined surface, for configurations that cannot be solved yet."""
+    yield Progress("preparing the surface", 0.1)
+    solver = IsotropicSolver(document.surface, document.corners)
+    yield Progress("preparing the holonomy conditions", 0.6)
+    solver.holonomy.defects(())
+    return LiveBase(document.surface, solver, lambda point: point)
+
+
+@dataclass(frozen=True, eq=False)
+class LiveEdit:
+    """Singularities tried on a `LiveBase`.
+
+    Parameters
+    ----------
+    base : LiveBase
+        What is picked and solved on.
+    singularities : tuple of Singularity
+        On ``base.surface``.
+    """
+
+    base: LiveBase
+    singularities: tuple[Singularity, ...]
+
+    @classmethod
+    def start(cls, document: Document, base: LiveBase) -> LiveEdit:
+        """Place the singularities of `document` on the surface of `base`."""
+        placed = (replace(s, point=base.locate(s.point)) for s in document.singularities)
+        return cls(base, tuple(placed))
+
+    def moved(self, index: int, point: SurfacePoint) -> LiveEdit:
+        """Return the edit with singularity `index` at `point` of the base's surface."""
+        singularities = list(self.singularities)
+        singularities[index] = replace(singularities[index], point=point)
+        return replace(self, singularities=tuple(singularities))
+
+    def added(self, singularity: Singularity) -> LiveEdit:
+        """Return the edit with one more singularity on the base's surface."""
+        return replace(self, singularities=(*self.singularities, singularity))
+
+    def defects(self) -> NDArray[np.float64]:
+        """Return the holonomy defects in radians, shape (n_conditions,), by table look-up."""
+        return self.base.solver.holonomy.defects(self.singularities)
+
+    def solve(self) -> Generator[Progress, None, CrossField]:
+        """Return the field of this moment; never yields, so that it is never cut short."""
+        yield from ()
+        return self.base.solver.solve(self.singularities)
+
+
+def cut(solution: Solution) -> Generator[Progress, None, NDArray[np.int64]]:
+    """Compute the cut graph of a solution: vertex pairs, shape (k, 2)."""
+    yield Progress("cutting to a disk", 0.0)
+    return solution.cut_graph

@@ -1,0 +1,42 @@
+"""From a path, a gallery case or a built-in surface to a document, as a job."""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from dataclasses import replace
+from pathlib import Path
+
+from crossview.gallery import find_case
+from crossview.session.document import Document
+from solvers.progress import Progress
+
+
+def open_target(
+    target: str, *, component: str | None = None, repair: bool = False
+) -> Generator[Progress, None, Document]:
+    """Read what `target` names.
+
+    Parameters
+    ----------
+    target : str
+        A case file, a surface file, or the name of a gallery case or built-in surface.
+    component : str or None
+        Which piece to take of a surface in several; None leaves it to the case.
+    repair : bool
+        Also mend what cannot be mended without changing the surface.
+    """
+    path = Path(target)
+    yield Progress(f"reading {path.name}", 0.1)
+    case = find_case(target)
+    options = case.options
+    options = replace(
+        options, component=component or options.component, repair=repair or options.repair
+    )
+    case = replace(case, options=options)
+    yield Progress("preparing the surface", 0.5)
+    document = Document.from_case(path.stem if path.exists() else target, case)
+    yield Progress("measuring the surface", 0.9)
+    # cached by the surface: what the window's panels show needs no work of the GUI thread
+    surface = document.surface
+    _ = surface.triangle_quality, surface.genus, surface.boundary_loops, surface.area
+    return document
