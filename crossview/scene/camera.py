@@ -126,7 +126,9 @@ def _directions(text: str, triangles: Triangles) -> tuple[FloatArray, FloatArray
         side, front = x, z
     else:
         side, front = y, z
-    return 0.55 * side + front + (1.15 if lying else 0.45) * up, up
+    if lying:
+        return 0.3 * side + front + 1.15 * up, up
+    return 0.55 * side + front + 0.45 * up, up
 
 
 def _frame(away: FloatArray, up: FloatArray) -> FloatArray:

@@ -30,6 +30,7 @@ VALENCE = {
 SURFACE = "#dcdee2"
 CROSS = "#1b1e24"
 CUT = "#1f5fd6"
+CUT_HALO = "#ffffff"
 LOOP = "#0b8f6f"
 PROBLEM = "#e5182b"
 

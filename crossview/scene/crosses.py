@@ -1,4 +1,4 @@
-"""The crosses layer: four arms on a well spread choice of triangles, one dataset of lines."""
+"""The crosses layer: four arms on well spread places, all in one dataset of lines."""
 
 from __future__ import annotations
 
@@ -7,22 +7,22 @@ import pyvista as pv
 
 from crossview.scene.actors import MeshActor
 from crossview.scene.colors import CROSS
-from crossview.scene.geometry import FloatArray, IntArray, Triangles
-from crossview.scene.sampling import spread_faces
+from crossview.scene.geometry import FloatArray, Triangles
+from crossview.scene.sampling import spread_sites
 from crossview.scene.view import SceneView
 from crossview.scene.watch import Watch
 
-# How many crosses there are at density 1 (fewer on a coarse surface).
-AUTOMATIC_NUMBER = 3000
+# How many crosses there are at density 1: of a planar surface all are seen at once.
+_NUMBER, _NUMBER_PLANAR = 2600, 1700
 # Half the length of a middling cross, in distances between crosses.
-_ARM = 0.4
+_ARM = 0.38
 # exp(H) is shown within these factors of the middling size, so that all stay readable.
 _SMALLEST, _LARGEST = 0.3, 1.75
 _LINE_WIDTH = 1.25
 
 
 class CrossesLayer:
-    """Lines -u to u and -v to v about the chosen barycentres."""
+    """Lines from -u to u and from -v to v about each place."""
 
     def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float) -> None:
         self._actor = MeshActor(plotter, "crosses", towards=30.0)
@@ -40,7 +40,7 @@ class CrossesLayer:
             return
         fresh = self._watch.changed("chosen", triangles, settings.density)
         if fresh or self._glyphs is None:
-            self._glyphs = CrossGlyphs(triangles, AUTOMATIC_NUMBER * settings.density)
+            self._glyphs = CrossGlyphs(triangles, settings.density)
         style = (settings.size, settings.uniform)
         if self._watch.changed("field", view.H, view.u, view.v, style) or fresh:
             points = self._glyphs.ends(view.u, view.v, view.H, *style)
@@ -57,31 +57,31 @@ class CrossesLayer:
 
 
 class CrossGlyphs:
-    """The chosen faces of a surface, and where the arms of their crosses end.
+    """The places on a surface that carry a cross, and where the arms of the crosses end.
 
     Parameters
     ----------
     triangles : Triangles
-    number : float
-        Of crosses wanted.
+    density : float
+        Factor on the automatic number.
     """
 
-    def __init__(self, triangles: Triangles, number: float) -> None:
-        self.chosen: IntArray = spread_faces(
-            triangles.barycentres, triangles.normals, triangles.areas, number
-        )
-        self.centres: FloatArray = triangles.barycentres[self.chosen]
-        self._corners = triangles.faces[self.chosen]
-        self.distance = float(np.sqrt(triangles.areas.sum() / max(len(self.chosen), 1)))
+    def __init__(self, triangles: Triangles, density: float) -> None:
+        number = density * (_NUMBER if triangles.plane_normal is None else _NUMBER_PLANAR)
+        self.sites = spread_sites(triangles, number)
+        self._corners = triangles.faces[self.sites.faces]
+        self._longest = 0.95 * self.sites.border
 
     def ends(
         self, u: FloatArray, v: FloatArray, H: FloatArray | None, size: float, uniform: bool
     ) -> FloatArray:
         """Return (4 k, 3): for each cross the ends of its line along u, then along v."""
-        arm = np.full((len(self.chosen), 1), _ARM * size * self.distance)
+        sites = self.sites
+        arm = np.full(len(sites.faces), _ARM * size * sites.spacing)
         if H is not None and not uniform:
-            h = H[self._corners].mean(axis=1)
-            arm *= np.clip(np.exp(h - np.median(h)), _SMALLEST, _LARGEST)[:, None]
-        along, across = arm * u[self.chosen], arm * v[self.chosen]
-        c = self.centres
+            h = np.einsum("kc,kc->k", H[self._corners], sites.weights)
+            arm *= np.clip(np.exp(h - np.median(h)), _SMALLEST, _LARGEST)
+        arm = np.minimum(arm, self._longest)[:, None]
+        along, across = arm * u[sites.faces], arm * v[sites.faces]
+        c = sites.positions
         return np.stack([c - along, c + along, c - across, c + across], axis=1).reshape(-1, 3)

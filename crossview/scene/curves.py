@@ -6,12 +6,13 @@ import numpy as np
 import pyvista as pv
 
 from crossview.scene.actors import MeshActor
-from crossview.scene.colors import CUT, LOOP, THEMES
+from crossview.scene.colors import CUT, CUT_HALO, LOOP, THEMES
 from crossview.scene.geometry import Triangles, dashes
 from crossview.scene.view import SceneView
 from crossview.scene.watch import Watch
 
-_BOUNDARY_WIDTH, _CUT_WIDTH, _LOOP_WIDTH = 2.5, 2.5, 5.0
+_BOUNDARY_WIDTH, _CUT_WIDTH, _LOOP_WIDTH = 2.5, 2.75, 5.0
+_CUT_HALO = 2.0
 # Dash and gap of the cut graph, in diagonals of the surface.
 CUT_DASH, CUT_GAP = 0.012, 0.008
 
@@ -40,12 +41,14 @@ class BoundaryLayer:
 
 
 class CutLayer:
-    """The cut graph in blue dashes."""
+    """The cut graph in blue dashes with a light rim, to be seen on every colour."""
 
     def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float) -> None:
-        self._actor = MeshActor(plotter, "cut", towards=100.0)
-        self._actor.flat()
-        self._actor.color(CUT)
+        self._halo = MeshActor(plotter, "cut halo", towards=90.0)
+        self._dashes = MeshActor(plotter, "cut", towards=100.0)
+        for actor, color in ((self._halo, CUT_HALO), (self._dashes, CUT)):
+            actor.flat()
+            actor.color(color)
         self._pixel_ratio = pixel_ratio
         self._watch = Watch()
 
@@ -53,20 +56,26 @@ class CutLayer:
         """Apply what changed."""
         edges = view.cut_graph
         settings = view.layer("cut")
-        self._actor.property.SetOpacity(settings.opacity)
-        self._actor.property.SetLineWidth(_CUT_WIDTH * settings.size * self._pixel_ratio)
+        actors = (self._halo, self._dashes)
         if not settings.visible or triangles is None or edges is None or not len(edges):
-            self._actor.visible = False
+            for actor in actors:
+                actor.visible = False
             return
         if self._watch.changed("edges", triangles, edges):
             lengths = (CUT_DASH * triangles.diagonal, CUT_GAP * triangles.diagonal)
             ends, lines = dashes(triangles.points, edges, *lengths)
-            self._actor.replace(ends, lines=lines)
-        self._actor.visible = True
+            for actor in actors:
+                actor.replace(ends, lines=lines)
+        for actor, extra in zip(actors, (_CUT_HALO, 0.0), strict=True):
+            actor.property.SetOpacity(settings.opacity)
+            width = (_CUT_WIDTH + extra) * settings.size
+            actor.property.SetLineWidth(width * self._pixel_ratio)
+            actor.visible = True
 
     def remove(self) -> None:
         """Take the cut graph off the plotter."""
-        self._actor.remove()
+        self._halo.remove()
+        self._dashes.remove()
 
 
 class LoopLayer:

@@ -43,8 +43,8 @@ def field_view(field: CrossField, cut_graph: IntArray | None = None, **others: A
 def cross_angle(triangles: Triangles, u: FloatArray) -> FloatArray:
     """Angle of the crosses against a direction fixed in space, projected to each triangle.
 
-    The direction is x on a surface seen from above, else the axis that is up; where it is normal
-    to the surface the angle has a pole of the reference, not of the field.
+    The direction is the axis least often normal to the surface (x on a surface seen from above):
+    where it is normal the angle has a pole, of the reference and not of the field.
 
     Parameters
     ----------
@@ -57,9 +57,7 @@ def cross_angle(triangles: Triangles, u: FloatArray) -> FloatArray:
         Radians, in [0, pi/2): a cross is the same after a quarter turn.
     """
     normals = triangles.normals
-    reference = np.eye(3)[int(np.argmin(np.ptp(triangles.points, axis=0)))]
-    if triangles.plane_normal is not None:
-        reference = np.eye(3)[int(np.argmin(np.abs(triangles.plane_normal)))]
+    reference = np.eye(3)[int(np.argmin(triangles.areas @ normals**16))]
     along = np.einsum("ij,j->i", u, reference)
     across = np.einsum("ij,ij->i", np.cross(normals, u), np.broadcast_to(reference, u.shape))
     # reference = along u + across (n x u): the cross is turned back by this angle.

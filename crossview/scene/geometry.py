@@ -30,7 +30,8 @@ class Triangles:
     @cached_property
     def barycentres(self) -> FloatArray:
         """(m, 3)."""
-        return self.points[self.faces].mean(axis=1)
+        corners = self.points[self.faces]
+        return np.add.reduce(corners, axis=1) / 3.0
 
     @cached_property
     def area_vectors(self) -> FloatArray:
@@ -47,6 +48,12 @@ class Triangles:
     def normals(self) -> FloatArray:
         """(m, 3) unit; zero for a degenerate triangle."""
         return self.area_vectors / np.where(self.areas > 0.0, self.areas, 1.0)[:, None]
+
+    @cached_property
+    def vertex_areas(self) -> FloatArray:
+        """(n,): a third of the triangles around each vertex."""
+        thirds = np.repeat(self.areas / 3.0, 3)
+        return np.bincount(self.faces.ravel(), thirds, minlength=len(self.points))
 
     @cached_property
     def boundary_edges(self) -> IntArray:

@@ -1,59 +1,116 @@
-"""Which faces carry a cross: a well spread choice that depends on the surface alone."""
+"""Where crosses stand: a well spread choice that depends on the surface alone."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 from scipy.spatial import cKDTree
 
-# Candidates per chosen face: enough to fill the surface, few enough to choose among at once.
+from crossview.scene.geometry import FloatArray, IntArray, Triangles
+
+# Candidates per chosen site: enough to fill the surface, few enough to choose among at once.
 _CANDIDATES = 8.0
 # A maximal choice at distance r has about 0.8 / r^2 members per unit area.
 _PACKING = 0.9
 # How far apart opposite directions of the normal count, in distances: thin sheets choose apart.
 _NORMAL_WEIGHT = 0.75
+# No site nearer to the boundary than this, in distances.
+_BORDER = 0.36
+# Triangles larger than this, in areas per site, hold more than one.
+_LARGE = 3.0
 
 
-def spread_faces(
-    barycentres: npt.NDArray[np.floating[Any]],
-    normals: npt.NDArray[np.floating[Any]],
-    areas: npt.NDArray[np.floating[Any]],
-    count: float,
-) -> npt.NDArray[np.int64]:
-    """Choose about `count` faces, no two near each other, none leaving a hole.
+@dataclass(frozen=True, eq=False)
+class Sites:
+    """Places on triangles.
 
-    Each face has a rank drawn from its position (not its number), and is chosen when it has the
-    lowest among the faces left within a distance r: Luby's parallel choice of a maximal
-    independent set. Where a surface is refined locally, the choice elsewhere stays the same.
+    Attributes
+    ----------
+    faces : (k,) int
+    weights : (k, 3) float
+        Barycentric; a third each unless the triangle is large.
+    positions : (k, 3) float
+    border : (k,) float
+        Distance to the boundary; inf without one.
+    spacing : float
+        A middling distance between sites.
+    """
+
+    faces: IntArray
+    weights: FloatArray
+    positions: FloatArray
+    border: FloatArray
+    spacing: float
+
+
+def spread_sites(triangles: Triangles, count: float) -> Sites:
+    """Choose about `count` places, no two near each other, none leaving a hole.
+
+    Each candidate, a triangle's barycentre, has a rank drawn from its position (not its number),
+    and is chosen when it has the lowest among those left within a distance r: Luby's parallel
+    choice of a maximal independent set. Where a surface is refined locally, the choice elsewhere
+    stays the same.
 
     Parameters
     ----------
-    barycentres, normals : (m, 3) float
-    areas : (m,) float
+    triangles : Triangles
     count : float
-        Number of faces wanted; fewer when the surface has fewer or they lie too near.
-
-    Returns
-    -------
-    (k,) int
-        Chosen faces, ascending.
+        Number of places wanted; fewer when the triangles are fewer.
     """
-    total = float(areas.sum())
+    total = float(triangles.areas.sum()) or 1.0
     radius = _PACKING * np.sqrt(total / count)
-    rank = _position_hash(barycentres)
-    share = _CANDIDATES * count * areas / total
-    candidates = np.flatnonzero(rank <= share)
-    where = np.hstack([barycentres, _NORMAL_WEIGHT * radius * normals])[candidates]
+    share = _CANDIDATES * count * triangles.areas / total
+    faces, weights = _candidates(share)
+    positions = np.einsum("kc,kcx->kx", weights, triangles.points[triangles.faces[faces]])
+    centre = np.arange(len(faces)) < len(share)
+    rank = _position_hash(positions, triangles.points)
+    border = _border_distance(positions, triangles, radius)
+    kept = ((rank <= share[faces]) | ~centre) & (border >= _BORDER * radius)
+    # The barycentres first: more sites in a large triangle only fill it up.
+    order = np.where(centre, rank / np.maximum(share[faces], 1e-300), 1.0 + rank)
+    chosen = np.flatnonzero(kept)
+    where = np.hstack([positions, _NORMAL_WEIGHT * radius * triangles.normals[faces]])[chosen]
     pairs = cKDTree(where).query_pairs(radius, output_type="ndarray")
-    return candidates[_lowest_apart(rank[candidates] / share[candidates], pairs)]
+    chosen = chosen[_lowest_apart(order[chosen], pairs)]
+    spacing = float(np.sqrt(total / max(len(chosen), 1)))
+    return Sites(faces[chosen], weights[chosen], positions[chosen], border[chosen], spacing)
 
 
-def _position_hash(positions: npt.NDArray[np.floating[Any]]) -> npt.NDArray[np.float64]:
+def _candidates(share: FloatArray) -> tuple[IntArray, FloatArray]:
+    """Every barycentre, and evenly strewn points in large triangles: faces, weights."""
+    extra = np.where(share > _LARGE * _CANDIDATES, share, 0.0).astype(int)
+    faces = np.repeat(np.arange(len(share)), extra)
+    number = np.arange(len(faces)) - np.repeat(np.cumsum(extra) - extra, extra)
+    # The sequence of Roberts: the plastic number's powers spread evenly over a square.
+    a, b = ((0.5 + number[:, None] * np.array([0.7548776662466927, 0.5698402909980532])) % 1.0).T
+    folded = a + b > 1.0
+    a, b = np.where(folded, 1.0 - a, a), np.where(folded, 1.0 - b, b)
+    inside = np.stack([1.0 - a - b, a, b], axis=1)
+    thirds = np.full((len(share), 3), 1.0 / 3.0)
+    return np.concatenate([np.arange(len(share)), faces]), np.vstack([thirds, inside])
+
+
+def _border_distance(positions: FloatArray, triangles: Triangles, radius: float) -> FloatArray:
+    """Distance of each position to the boundary, told from points on it, to radius / 8."""
+    ends = triangles.points[triangles.boundary_edges]
+    if not len(ends):
+        return np.full(len(positions), np.inf)
+    lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    pieces = np.maximum(np.ceil(lengths / (0.25 * radius)), 1.0).astype(int)
+    edge = np.repeat(np.arange(len(ends)), pieces)
+    number = np.arange(len(edge)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
+    along = ((number + 0.5) / pieces[edge])[:, None]
+    points = (1.0 - along) * ends[edge, 0] + along * ends[edge, 1]
+    return cKDTree(points).query(positions, distance_upper_bound=2.0 * radius)[0]
+
+
+def _position_hash(positions: FloatArray, points: FloatArray) -> npt.NDArray[np.float64]:
     """Return a number in (0, 1) per position, the same wherever the position is the same."""
-    low = positions.min(axis=0)
-    extent = float(np.ptp(positions, axis=0).max()) or 1.0
+    low = points.min(axis=0)
+    extent = float(np.ptp(points, axis=0).max()) or 1.0
     grid = np.round((positions - low) / extent * 1e6).astype(np.uint64)
     mixed = grid @ np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], np.uint64)
     for shift, factor in ((31, 0x7FB5D329728EA185), (27, 0x81DADEF4BC2DD44D)):

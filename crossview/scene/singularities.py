@@ -16,7 +16,7 @@ from crossview.scene.view import Marker, SceneView
 from crossview.scene.watch import Watch
 
 # Radius of a singularity in diagonals of the surface, and at most in distances to its neighbour.
-_RADIUS, _CROWDED = 0.0125, 0.4
+_RADIUS, _CROWDED = 0.014, 0.42
 _RIM = "#16181c"
 _RING_SIZE = 1.75
 _PREVIEW_OPACITY = 0.6
@@ -30,13 +30,20 @@ _AWAY = """//VTK::Light::Impl
   float facing = clamp(abs(dot(normalize(normalVCVSOutput), eye)), 0.0, 1.0);
   float away = sqrt(1.0 - facing * facing);
 """
-_DISC = _AWAY + """
-  fragOutput0 = vec4(mix(diffuseColor, vec3({rim}), smoothstep(0.84, 0.88, away)), opacity);
+_DISC = (
+    _AWAY
+    + """
+  vec3 color = mix(diffuseColor, vec3(1.0), smoothstep(0.74, 0.78, away));
+  fragOutput0 = vec4(mix(color, vec3({rim}), smoothstep(0.90, 0.94, away)), opacity);
 """
-_RING = _AWAY + """
+)
+_RING = (
+    _AWAY
+    + """
   if (away < 0.84) discard;
   fragOutput0 = vec4(diffuseColor, opacity);
 """
+)
 
 
 class _Balls:

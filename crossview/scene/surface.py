@@ -17,6 +17,8 @@ from crossview.scene.watch import Watch
 
 # Edges sharper than this, in degrees, stay sharp in the shading.
 _FEATURE_ANGLE = 50.0
+# Sizes that differ by less than a percent are not worth a colour.
+_LEAST_LIMIT = 0.01
 _EDGE_COLOR = "#9aa0a8"
 # Light that comes from everywhere; the rest comes from the scene's lights.
 AMBIENT = 0.42
@@ -84,7 +86,7 @@ class SurfaceLayer:
         ):
             return
         if shown == "H":
-            self.h_range = settings.value_range or symmetric_range(data)
+            self.h_range = settings.value_range or symmetric_range(data, triangles.vertex_areas)
             self._set_scalars(data[self._origin], self.h_range, cells=False)
         else:
             self._set_scalars(cross_angle(triangles, data), (0.0, np.pi / 2), cells=True)
@@ -118,15 +120,22 @@ def shown_scalar(view: SceneView) -> str:
     return "H" if view.layer("H").visible and view.H is not None else ""
 
 
-def symmetric_range(values: FloatArray) -> tuple[float, float]:
+def symmetric_range(values: FloatArray, weights: FloatArray) -> tuple[float, float]:
     """Return round limits about 0 that leave out the far ends at the singularities.
 
-    H has a logarithm's pole at each singularity, as deep as the mesh there is fine: the
-    98th percentile of its size, rounded up to one or two digits, says what the colours span.
+    H has a logarithm's pole at each singularity, as deep as the mesh there is fine. So the limit
+    is what 98 % of the area stay below, rounded up to one or two digits.
+
+    Parameters
+    ----------
+    values : (n,) float
+    weights : (n,) float
+        Area about each value.
     """
-    top = float(np.quantile(np.abs(values), 0.98))
-    if not top > 0.0:
-        return (-1.0, 1.0)
+    size = np.abs(values)
+    order = np.argsort(size)
+    share = np.cumsum(weights[order])
+    top = max(float(size[order][np.searchsorted(share, 0.98 * share[-1])]), _LEAST_LIMIT)
     unit = 10.0 ** np.floor(np.log10(top))
     steps = np.array([1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0]) * unit
     limit = float(steps[np.searchsorted(steps, top * (1.0 - 1e-9))])
