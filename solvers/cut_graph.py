@@ -85,9 +85,7 @@ def _steiner_tree(t: IntrinsicTriangulation, terminal: IntArray) -> IntArray:
     between = h[region[t.tail[h]] != region[t.head[h]]]
     joining = distance[t.tail[between]] + length[between] + distance[t.head[between]]
     n = int(terminal.max()) + 1
-    regions = HalfedgeGraph(
-        n, region[t.tail[between]], region[t.head[between]], joining, between
-    )
+    regions = HalfedgeGraph(n, region[t.tail[between]], region[t.head[between]], joining, between)
     tree = minimum_spanning_tree(regions.matrix).tocoo()
     bridges = regions.halfedges(tree.row.astype(np.int64), tree.col.astype(np.int64))
     pieces = [bridges]

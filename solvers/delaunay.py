@@ -77,8 +77,8 @@ class DelaunayTriangulation:
     ----------
     original : IntrinsicTriangulation
         What to flip.
-    fixed : (3 m,) bool array, optional
-        Halfedges whose edge must stay.
+    fixed : (r, 3 m) bool array
+        Halfedges whose edge must stay, in any number of rows.
     chain : (r, 3 m) int array, optional
         Numbers on halfedges of fixed or boundary edges; carried along.
 
@@ -100,7 +100,7 @@ class DelaunayTriangulation:
     def __init__(
         self,
         original: IntrinsicTriangulation,
-        fixed: npt.NDArray[np.bool_] | None = None,
+        fixed: npt.NDArray[np.bool_],
         chain: IntArray | None = None,
     ) -> None:
         n = len(original.twin)
@@ -108,8 +108,8 @@ class DelaunayTriangulation:
         self.rounds: list[Flips] = []
         self.triangulation = original
         h = np.flatnonzero((original.weights < -TOLERANCE) & (np.arange(n) < original.twin))
-        if len(h) and not (fixed is not None and fixed[h].all()):
-            self._fixed = np.zeros(n, dtype=bool) if fixed is None else fixed.copy()
+        self._fixed: npt.NDArray[np.bool_] = np.atleast_1d(np.any(fixed, axis=0))
+        if not self._fixed[h].all():
             self._run(h)
         self.n_flips = sum(len(flips.left) for flips in self.rounds)
 
@@ -134,7 +134,7 @@ class DelaunayTriangulation:
         )
 
     def _choose(self, h: IntArray) -> tuple[IntArray, IntArray]:
-        """Return the non-Delaunay edges to flip now, no two in the same triangle, and the others."""
+        """Return the edges to flip now, no two in the same triangle, and those to flip later."""
         h = np.unique(np.where(self._twin[h] > h, h, self._twin[h]))
         h = h[(h >= 0) & ~self._fixed[h] & (h // 3 != self._twin[h] // 3)]
         weight = self._half_weight(h) + self._half_weight(self._twin[h])

@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 
 from solvers.delaunay import DelaunayTriangulation, Located
-from solvers.homology import DualTree, HandleLoops, handle_loops
+from solvers.homology import DualTree, handle_loops
 from solvers.points import SurfacePoint
 from solvers.surface import TriSurface
 from solvers.triangulation import FloatArray, IntArray, IntrinsicTriangulation, wrap
@@ -74,28 +74,20 @@ class Discretization:
     def __init__(self, surface: TriSurface) -> None:
         self.surface = surface
         own = surface.triangulation
-        loops = surface.boundary_loops
-        self.handles = (
-            handle_loops(own, loops)
-            if surface.genus
-            else HandleLoops(np.zeros((0, len(own.twin)), dtype=np.int64), np.zeros(0, int), ())
-        )
+        self.handles = handle_loops(own, surface.boundary_loops)
         starts = self._boundary_starts(own)
         marks = np.zeros((1, len(own.twin)), dtype=np.int64)
         marked = np.array([*starts, *self.handles.closing], dtype=np.int64)
         marks[0, marked] = np.arange(1, len(marked) + 1)
-        self.delaunay = DelaunayTriangulation(
-            own, self.handles.chain.any(axis=0), np.concatenate([self.handles.chain, marks])
-        )
+        chain = np.concatenate([self.handles.chain, marks])
+        self.delaunay = DelaunayTriangulation(own, chain[:-1] != 0, chain)
         self.triangulation: IntrinsicTriangulation = self.delaunay.triangulation
         self.chain = self.delaunay.chain[:-1]
         place = np.flatnonzero(self.delaunay.chain[-1])
         moved = place[np.argsort(self.delaunay.chain[-1, place])].tolist()
         self.reference = moved[0] if starts else -1
         self.conditions = tuple(self._conditions(moved[: len(starts)], moved[len(starts) :]))
-        self.tree = DualTree(
-            self.triangulation, max(self.reference, 0) // 3, self.chain.any(axis=0)
-        )
+        self.tree = DualTree(self.triangulation, max(self.reference, 0) // 3, self.chain != 0)
 
     def _boundary_starts(self, own: IntrinsicTriangulation) -> list[int]:
         """Return the halfedge that leaves the first vertex of each boundary loop."""
@@ -160,9 +152,7 @@ class Discretization:
         t = self.triangulation
         faces = np.array([p.face for p in points], dtype=np.int64)
         weights = np.array([p.barycentric for p in points]).reshape(-1, 3)
-        flat = np.einsum(
-            "ki,kij->kj", weights, self.surface.triangulation.corner_positions[faces]
-        )
+        flat = np.einsum("ki,kij->kj", weights, self.surface.triangulation.corner_positions[faces])
         located = self.delaunay.locate(faces, flat)
         corners = t.corner_positions[located.face]
         third = located.place[:, 1] / corners[:, 2, 1]

@@ -51,10 +51,10 @@ class Holonomy:
         nodal = np.zeros((len(self.conditions), t.n_vertices))
         for values, form in zip(nodal, forms, strict=True):
             flow = form[h] * t.weights[h]
-            q = np.bincount(t.head[h], flow, t.n_vertices) - np.bincount(
-                t.tail[h], flow, t.n_vertices
-            )
-            values[1:] = factorization.solve(q[1:])
+            np.add.at(values, t.head[h], flow)
+            np.subtract.at(values, t.tail[h], flow)
+            values[1:] = factorization.solve(values[1:])
+            values[0] = 0.0
         level = np.zeros((t.n_faces, 3))
         curvature = t.curvatures.copy()
         for vertex, index in corners.items():

@@ -24,8 +24,8 @@ class DualTree:
         Where.
     root : int
         The triangle to start from.
-    blocked : (3 m,) bool array, optional
-        Halfedges not to cross; what is left must be connected.
+    blocked : (r, 3 m) bool array
+        Halfedges not to cross, in any number of rows; what is left must be connected.
 
     Attributes
     ----------
@@ -41,11 +41,11 @@ class DualTree:
         self,
         triangulation: IntrinsicTriangulation,
         root: int,
-        blocked: npt.NDArray[np.bool_] | None = None,
+        blocked: npt.NDArray[np.bool_],
     ) -> None:
         twin, m = triangulation.twin, triangulation.n_faces
         self._twin = twin
-        open_ = twin >= 0 if blocked is None else (twin >= 0) & ~blocked
+        open_ = (twin >= 0) & ~blocked.any(axis=0)
         h = np.flatnonzero(open_)
         count = open_.reshape(-1, 3).sum(axis=1)
         start = np.concatenate([[0], np.cumsum(count)])
@@ -157,12 +157,14 @@ def handle_loops(
         Vertices of each boundary loop.
     """
     t = triangulation
+    euler_characteristic = t.n_vertices - len(t.edge_halfedges) + t.n_faces
+    if euler_characteristic + len(boundary_loops) == 2:
+        empty = np.zeros((0, len(t.twin)), dtype=np.int64)
+        return HandleLoops(empty, np.zeros(0, dtype=np.int64), ())
     node = np.arange(t.n_vertices)
     for loop in boundary_loops:
         node[loop] = loop.min()
     first = _Decomposition(t, node, root=int(node[0]))
-    if len(first.leftover) == 0:
-        return HandleLoops(np.zeros((0, len(t.twin)), dtype=np.int64), first.leftover, ())
     # Loops through a vertex of the shortest loop are shorter than through an arbitrary one.
     shortest = int(first.leftover[np.argmin(first.loop_length[first.leftover])])
     best = _Decomposition(t, node, root=int(node[t.tail[shortest]]))
@@ -180,9 +182,7 @@ class _Decomposition:
         h = np.flatnonzero(t.twin >= 0)
         tail, head, length = node[t.tail], node[t.head], t.lengths.reshape(-1)
         self._graph = HalfedgeGraph(t.n_vertices, tail[h], head[h], length[h], h)
-        distance, predecessor = dijkstra(
-            self._graph.matrix, indices=root, return_predecessors=True
-        )
+        distance, predecessor = dijkstra(self._graph.matrix, indices=root, return_predecessors=True)
         self._predecessor = predecessor.astype(np.int64)
         self.loop_length = distance[tail] + length + distance[head]
         child = np.flatnonzero(self._predecessor >= 0)

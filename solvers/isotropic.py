@@ -77,8 +77,7 @@ class IsotropicSolver:
         budget = index_budget(self.surface, singularities, self.corners)
         if not budget.satisfied:
             raise SingularityError(
-                f"the singularities miss the index budget, {budget.index_sum} of "
-                f"{budget.required}",
+                f"the singularities miss the index budget, {budget.index_sum} of {budget.required}",
                 remedy=" or ".join(budget.remedies),
             )
         faces, weights = self.discretization.place([s.point for s in singularities])

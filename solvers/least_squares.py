@@ -52,7 +52,8 @@ def least_squares_theta(
     every = np.arange(len(t.twin))
     apart = crouzeix_raviart(t, every, len(every))
     # A |grad psi_e . J grad H| integrates to minus the difference of H along the edge.
-    right = np.bincount(unknown, h[t.tail] - h[t.head] - apart @ known)
+    right = np.zeros(matrix.shape[0])
+    np.add.at(right, unknown, h[t.tail] - h[t.head] - apart @ known)
     pin = int(unknown[max(d.reference, 0)])
     free = np.delete(np.arange(len(right)), pin)
     value = np.empty(len(right))

@@ -47,9 +47,7 @@ def lumped_mass(triangulation: IntrinsicTriangulation) -> FloatArray:
     return np.asarray(np.bincount(t.tail, np.repeat(t.areas / 3, 3), t.n_vertices))
 
 
-def crouzeix_raviart(
-    triangulation: IntrinsicTriangulation, unknown: IntArray, n: int
-) -> csc_array:
+def crouzeix_raviart(triangulation: IntrinsicTriangulation, unknown: IntArray, n: int) -> csc_array:
     """Return the (n, n) Crouzeix-Raviart stiffness matrix.
 
     The basis function of an edge is 1 at its midpoint and 0 at the midpoints of the other two:

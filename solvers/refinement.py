@@ -1,9 +1,9 @@
-"""Singularities as vertices of a mesh that is finer around them (paper, section "Preliminary
-results", step 2: the adapted mesh).
+"""Singularities as vertices of a mesh that is finer around them.
 
-Triangles near a singularity are split in four, level by level in ever smaller neighbourhoods, their
-neighbours in two or three so that no vertex hangs; the point is then inserted, and edges inside
-the flat original triangles are flipped to Delaunay. The surface's shape and boundary stay as they are.
+The paper's adapted mesh (section "Preliminary results", step 2). Triangles near a singularity are
+split in four, level by level in ever smaller neighbourhoods, their neighbours in two or three so
+that no vertex hangs; the point is then inserted, and edges inside the flat original triangles are
+flipped to Delaunay. The surface's shape and boundary stay as they are.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 
 from solvers.delaunay import DelaunayTriangulation
 from solvers.points import SurfacePoint
-from solvers.surface import TriSurface
+from solvers.surface import TriSurface, barycentric
 from solvers.triangulation import FloatArray, IntArray
 
 SNAP = 1e-9
@@ -50,13 +50,11 @@ class Refinement:
         """Return a point of the refined surface as a point of the original."""
         parent = int(self.parent_face[point.face])
         corners = self.coarse.vertices[self.coarse.faces[parent]]
-        weights = _barycentric(corners[None], self.surface.position(point))[0]
+        weights = barycentric(corners[None], self.surface.position(point))[0]
         return _surface_point(parent, weights)
 
 
-def refine_at(
-    surface: TriSurface, points: Sequence[SurfacePoint], levels: int = 3
-) -> Refinement:
+def refine_at(surface: TriSurface, points: Sequence[SurfacePoint], levels: int = 3) -> Refinement:
     """Return the surface with vertices at the given points and smaller triangles around them.
 
     Parameters
@@ -157,7 +155,7 @@ class _Mesh:
                 self.at[i] = int(number[face])
                 continue
             among = np.flatnonzero(whole == face)
-            weights = _barycentric(self.vertices[pieces[among]], self.positions[i])
+            weights = barycentric(self.vertices[pieces[among]], self.positions[i])
             best = int(np.argmax(weights.min(axis=1)))
             self.at[i] = kept + int(among[best])
             self.weights[i] = np.maximum(weights[best], 0.0) / np.maximum(weights[best], 0.0).sum()
@@ -174,7 +172,7 @@ class _Mesh:
         owner = self.parent[inside]
         h = np.arange(len(patch.twin))
         border = (patch.twin < 0) | (owner[patch.twin // 3] != owner[h // 3])
-        flipped = DelaunayTriangulation(patch, border).triangulation
+        flipped = DelaunayTriangulation(patch, border[None]).triangulation
         self.faces = self.faces.copy()
         self.faces[inside] = flipped.faces
 
@@ -218,17 +216,6 @@ def _subdivided(
             pieces.append(np.stack(part, axis=1)[chosen])
             whole.append(rows[chosen])
     return np.concatenate(pieces), np.concatenate(whole)
-
-
-def _barycentric(triangles: FloatArray, position: FloatArray) -> FloatArray:
-    """Return the weights (k, 3) of a place in the planes of triangles (k, 3, 3)."""
-    u, v = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
-    normal = np.cross(u, v)
-    to_x = position - triangles[:, 0]
-    squared = (normal**2).sum(axis=1)
-    second = (np.cross(to_x, v) * normal).sum(axis=1) / squared
-    third = (np.cross(u, to_x) * normal).sum(axis=1) / squared
-    return np.stack([1 - second - third, second, third], axis=1)
 
 
 def _surface_point(face: int, weights: FloatArray) -> SurfacePoint:

@@ -230,27 +230,43 @@ class TriSurface:
         return SurfacePoint(int(candidates[best]), (float(w[0]), float(w[1]), float(w[2])))
 
 
-def _closest_barycentric(corners: FloatArray, x: FloatArray) -> FloatArray:
-    """Return (k, 3) weights of the point of each triangle (k, 3, 3) nearest to `x`."""
-    u = corners[:, 1] - corners[:, 0]
-    v = corners[:, 2] - corners[:, 0]
+def barycentric(triangles: FloatArray, position: FloatArray) -> FloatArray:
+    """Return the weights of the foot of the perpendicular from a place to planes of triangles.
+
+    Parameters
+    ----------
+    triangles : (k, 3, 3) float array
+        Corners.
+    position : (3,) float array
+        The place.
+
+    Returns
+    -------
+    (k, 3) float array
+        Weights with sum 1; negative where the foot lies outside.
+    """
+    u = triangles[:, 1] - triangles[:, 0]
+    v = triangles[:, 2] - triangles[:, 0]
     normal = np.cross(u, v)
     squared = (normal**2).sum(axis=1)
-    to_x = x - corners[:, 0]
-    second = np.einsum("ij,ij->i", np.cross(to_x, v), normal) / squared
-    third = np.einsum("ij,ij->i", np.cross(u, to_x), normal) / squared
-    inside = np.stack([1 - second - third, second, third], axis=1)
-    best = np.where((inside >= 0).all(axis=1)[:, None], inside, np.nan)
-    distance = np.where(np.isnan(best[:, 0]), np.inf, 0.0)
+    to_x = position - triangles[:, 0]
+    second = (np.cross(to_x, v) * normal).sum(axis=1) / squared
+    third = (np.cross(u, to_x) * normal).sum(axis=1) / squared
+    return np.stack([1 - second - third, second, third], axis=1)
+
+
+def _closest_barycentric(corners: FloatArray, x: FloatArray) -> FloatArray:
+    """Return (k, 3) weights of the point of each triangle (k, 3, 3) nearest to `x`."""
+    best = barycentric(corners, x)
+    distance = np.where((best >= 0).all(axis=1), 0.0, np.inf)
     for i in range(3):
         a, b = corners[:, i], corners[:, (i + 1) % 3]
         along = b - a
-        t = np.clip(np.einsum("ij,ij->i", x - a, along) / (along**2).sum(axis=1), 0.0, 1.0)
+        t = np.clip(((x - a) * along).sum(axis=1) / (along**2).sum(axis=1), 0.0, 1.0)
         gap = np.linalg.norm(a + t[:, None] * along - x, axis=1)
-        weights = np.zeros_like(inside)
+        weights = np.zeros_like(best)
         weights[:, i] = 1 - t
         weights[:, (i + 1) % 3] = t
-        nearer = gap < distance
-        best[nearer] = weights[nearer]
+        best = np.where((gap < distance)[:, None], weights, best)
         distance = np.minimum(distance, gap)
     return best

@@ -1,7 +1,7 @@
 """Triangulations known by connectivity and edge lengths alone.
 
-Halfedge ``h = 3 f + i`` runs in face ``f`` from corner ``i`` to corner ``i + 1``; the surface lies to
-its left. Everything the discretisation needs (angles, cotangents, Levi-Civita transport) follows
+Halfedge ``h = 3 f + i`` runs in face ``f`` from corner ``i`` to corner ``i + 1``; the surface lies
+to its left. Everything the discretisation needs (angles, cotangents, Levi-Civita transport) follows
 from lengths, so the same operators serve an embedded surface and its intrinsic Delaunay flips.
 """
 
