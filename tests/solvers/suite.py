@@ -1,0 +1,48 @@
+"""The surfaces and configurations that the tests of the solvers share."""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from solvers.primitives import BUILTIN
+from solvers.singularities import Singularity, default_corners
+from solvers.surface import TriSurface
+
+SURFACES: dict[str, Callable[[], TriSurface]] = {
+    "sphere": lambda: BUILTIN["sphere"](subdivisions=3),
+    "disk": lambda: BUILTIN["disk"](edge_length=0.1),
+    "square": lambda: BUILTIN["square"](n=12),
+    "l_shape": lambda: BUILTIN["l_shape"](edge_length=0.15),
+    "annulus": lambda: BUILTIN["annulus"](n=48),
+    "plate": lambda: BUILTIN["plate_with_holes"](holes=3, edge_length=0.2),
+    "cylinder": lambda: BUILTIN["cylinder"](n=32),
+    "torus": lambda: BUILTIN["torus"](n=36),
+    "torus_with_hole": lambda: BUILTIN["torus_with_hole"](n=36),
+    "double_torus": lambda: BUILTIN["genus"](handles=2, subdivisions=2),
+    "slivers": lambda: slivers(),
+}
+
+
+def slivers() -> TriSurface:
+    """A bent sheet with a hole whose triangles are far from Delaunay: sheared and stretched."""
+    flat = BUILTIN["annulus"](n=48)
+    x, y, _ = flat.vertices.T
+    return TriSurface(np.stack([x + 4 * y, 0.3 * y, 0.05 * np.sin(3 * x)], axis=1), flat.faces)
+
+
+def at_vertices(
+    surface: TriSurface, vertices: Sequence[int], valences: Sequence[int]
+) -> list[Singularity]:
+    return [
+        Singularity(surface.point_at_vertex(int(v)), k)
+        for v, k in zip(vertices, valences, strict=True)
+    ]
+
+
+def random_configuration(surface: TriSurface, seed: int, pairs: int = 2) -> list[Singularity]:
+    """Singularities at random inner vertices that meet the index budget."""
+    missing = 4 * surface.euler_characteristic - sum(default_corners(surface).values())
+    valences = [4 - int(np.sign(missing))] * abs(missing) + [3, 5] * pairs
+    inner = np.flatnonzero(~surface.boundary_vertices)
+    chosen = np.random.default_rng(seed).choice(inner, len(valences), replace=False)
+    return at_vertices(surface, chosen.tolist(), valences)
