@@ -48,6 +48,8 @@ def find_case(target: str) -> Case:
         return Case.load(path)
     if path.exists():
         return Case(surface=target)
+    if path.name != target or path.suffix:
+        raise CaseError("no such file", target, "check its name and folder")
     if target in names():
         return Case.load(path_of(target))
     if target in BUILTIN:

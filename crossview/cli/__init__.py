@@ -1,0 +1,70 @@
+"""The command line: the window, and what it does as commands for scripts and tests."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from cyclopts import App, CycloptsError
+
+from crossview import __version__
+from crossview.cli.info import info
+from crossview.cli.render import gallery, render
+from crossview.cli.solve import solve
+from crossview.cli.terminal import complain
+from crossview.cli.window import window
+from crossview.jsonfield import nearest
+from solvers.errors import CrossviewError
+
+__all__ = ["app", "main"]
+
+app = App(name="crossview", version=__version__, help_format="plaintext")
+app.default(window)
+for command in (info, solve, render, gallery):
+    app.command(command)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line.
+
+    Parameters
+    ----------
+    arguments : sequence of str, optional
+        Instead of those of the process.
+
+    Returns
+    -------
+    int
+        Exit status: 0, 2 for a mistake the user can mend, 130 when interrupted.
+    """
+    tokens = list(sys.argv[1:] if arguments is None else arguments)
+    try:
+        app(tokens, exit_on_error=False, print_error=False, result_action="return_value")
+    except CycloptsError as error:
+        return _refuse(_usage_error(tokens, error))
+    except CrossviewError as error:
+        return _refuse(error)
+    except MemoryError:
+        return _refuse(CrossviewError("out of memory", "", "use a coarser surface"))
+    except KeyboardInterrupt:
+        complain("crossview: interrupted")
+        return 130
+    return 0
+
+
+def _refuse(error: CrossviewError) -> int:
+    complain(f"crossview: error: {error}")
+    return 2
+
+
+def _usage_error(tokens: list[str], error: CycloptsError) -> CrossviewError:
+    """What is wrong with the command line."""
+    what = " ".join(str(error).split()).rstrip(".")
+    known = [name for name in app if not name.startswith("-")]
+    command = tokens[0]
+    if command in known:
+        return CrossviewError(what, "", f"see crossview {command} --help")
+    if not command.startswith("-") and not Path(command).exists():
+        return CrossviewError(f'unknown command "{command}"', "", nearest(command, known))
+    return CrossviewError(what, "", "see crossview --help")

@@ -1,0 +1,112 @@
+"""A surface described as JSON values, also one that cannot be solved on."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from crossview.case import Builtin, Case
+from crossview.io import read_surface
+from crossview.loading import load_surfaces, mended
+from crossview.problem import Problem, placed
+from solvers.errors import SurfaceError
+from solvers.flat_triangles import merge_coincident
+from solvers.repair import Repaired
+from solvers.singularities import index_budget
+from solvers.validation import array_problems, problems
+
+
+def describe(case: Case) -> dict[str, Any]:
+    """What the surface of a case is, what is wrong with it, and what its indices must sum to.
+
+    All components are described unless the case chooses one. "problems" are those of the file's
+    own triangles (joined, for formats that do not share vertices), "notes" is what was mended;
+    "components" is empty if the rest keeps the triangles from being a surface.
+
+    Raises
+    ------
+    CrossviewError
+        The surface cannot be read, or the case places something away from it.
+    """
+    if case.options.component is None:
+        case = replace(case, options=replace(case.options, component="all"))
+    if isinstance(case.surface, Builtin):
+        pieces = load_surfaces(case)
+        made = pieces[0].surface
+        counts = made.n_vertices, made.n_faces
+        found: list[SurfaceError] = []
+    else:
+        counts, found, pieces = _read(case, case.surface)
+    return {
+        "vertices": counts[0],
+        "faces": counts[1],
+        "problems": [_problem(error) for error in found],
+        "notes": list(pieces[0].notes) if pieces else [],
+        "components": [_component(problem) for problem in placed(case, pieces)] if pieces else [],
+    }
+
+
+def _read(
+    case: Case, path: str
+) -> tuple[tuple[int, int], list[SurfaceError], tuple[Repaired, ...]]:
+    """Numbers of vertices and triangles, what is wrong with them, the surfaces made of them."""
+    raw = read_surface(path)
+    vertices, faces = raw.vertices, raw.faces
+    if raw.merge and not any(array_problems(vertices, faces)):
+        vertices, faces, _ = merge_coincident(vertices, faces)
+    found = list(problems(vertices, faces))
+    try:
+        pieces = mended(raw, case)
+    except SurfaceError as error:
+        pieces = ()
+        # a one-sided surface shows only when orienting it is tried
+        if error.what not in [problem.what for problem in found]:
+            found.append(error)
+    return (len(vertices), len(faces)), found, pieces
+
+
+def _problem(error: SurfaceError) -> dict[str, Any]:
+    return {
+        "message": str(error),
+        "kind": error.kind,
+        "elements": error.elements.tolist(),
+    }
+
+
+def _component(problem: Problem) -> dict[str, Any]:
+    surface, corners = problem.surface, problem.chosen_corners
+    budget = index_budget(surface, problem.singularities, corners)
+    quality = surface.triangle_quality
+    closed = [np.append(loop, loop[0]) for loop in surface.boundary_loops]
+    return {
+        "vertices": surface.n_vertices,
+        "faces": surface.n_faces,
+        "euler_characteristic": surface.euler_characteristic,
+        "genus": surface.genus,
+        "boundary_loops": len(surface.boundary_loops),
+        "boundary_lengths": [
+            float(np.linalg.norm(np.diff(surface.vertices[loop], axis=0), axis=1).sum())
+            for loop in closed
+        ],
+        "area": surface.area,
+        "diagonal": surface.diagonal,
+        "triangle_quality": {
+            "min": float(quality.min()),
+            "mean": float(quality.mean()),
+            "max": float(quality.max()),
+        },
+        "corners": [
+            {"position": surface.vertices[vertex].tolist(), "index": index}
+            for vertex, index in corners.items()
+        ],
+        "index_budget": {
+            "index_sum": budget.index_sum,
+            "required": budget.required,
+            "missing": budget.missing,
+            "satisfied": budget.satisfied,
+            "message": budget.message,
+            "remedies": list(budget.remedies),
+        },
+    }

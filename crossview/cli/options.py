@@ -1,0 +1,44 @@
+"""What several commands take: their options, and the case they start from."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Annotated, Any
+
+from cyclopts import Parameter
+
+from crossview.case import Case, check_method
+from crossview.gallery import find_case
+from solvers.errors import CrossviewError
+
+Output = Annotated[str, Parameter(name=["--output", "-o"])]
+Flag = Annotated[bool, Parameter(negative="")]
+Json = Annotated[bool, Parameter(name="--json", negative="")]
+
+
+def chosen_case(
+    target: str, method: str | None = None, component: str | None = None, repair: bool = False
+) -> Case:
+    """The case that `target` names, with what the command line says instead.
+
+    Raises
+    ------
+    CrossviewError
+        There is no such case, or an option is wrong.
+    """
+    case = find_case(target)
+    changes: dict[str, Any] = {"repair": True} if repair else {}
+    if component is not None:
+        changes["component"] = _component(component)
+    case = replace(case, options=replace(case.options, **changes))
+    return case if method is None else replace(case, method=check_method(method, "--method"))
+
+
+def _component(text: str) -> int | str:
+    if text in ("largest", "all"):
+        return text
+    if text.isdecimal():
+        return int(text)
+    raise CrossviewError(
+        f'unknown component "{text}"', "--component", "largest, all or a number (0 is the largest)"
+    )

@@ -1,0 +1,139 @@
+"""crossview render and crossview gallery: cases to pictures."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Generator
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from crossview import gallery as cases
+from crossview.cli.options import Flag, Output, chosen_case
+from crossview.cli.terminal import say, watch
+from crossview.pipeline import Solution, solve_case
+from crossview.staging import staged
+from solvers.errors import CrossviewError
+from solvers.progress import Progress
+
+FIGURE = "figure.png"
+
+
+def render(
+    case: str,
+    /,
+    *,
+    output: Output,
+    layers: str | None = None,
+    size: str = "1600x1200",
+    scale: float = 1.0,
+    transparent: Flag = False,
+    camera: str = "auto",
+    component: str | None = None,
+    repair: Flag = False,
+    quiet: Flag = False,
+) -> None:
+    """Solve a case and draw it to a picture.
+
+    Parameters
+    ----------
+    case
+        A case, a surface without singularities, or the name of a gallery case.
+    output
+        The picture, a PNG.
+    layers
+        What to draw, such as H,crosses,singularities,cut; by default what the window shows.
+    size
+        Width and height, such as 1600x1200.
+    scale
+        Pixels for each of size: 2 makes a picture twice as fine.
+    transparent
+        Leave the background out.
+    camera
+        auto, iso, xy, xz, yz, or position, focus and up as nine numbers with commas.
+    component
+        Of a surface in several pieces: largest, or a number (0 is the largest).
+    repair
+        Also mend what cannot be mended without changing the surface.
+    quiet
+        Show neither progress nor summary.
+    """
+    from crossview.export.figures import render as draw
+
+    found = chosen_case(case, component=component, repair=repair)
+    if found.options.component == "all":
+        raise CrossviewError("a picture shows one component", "all", "name one with --component")
+    shown = None if layers is None else [name.strip() for name in layers.split(",")]
+    pixels = _size(size)
+
+    def work(path: Path) -> Generator[Progress, None, Solution]:
+        (solution,) = yield from solve_case(found)
+        yield Progress("drawing", 0.9)
+        draw(
+            solution,
+            path,
+            layers=shown,
+            size=pixels,
+            scale=scale,
+            transparent=transparent,
+            camera=camera,
+        )
+        return solution
+
+    target = Path(output)
+    with staged(target.parent) as staging:
+        watch(work(staging / target.name), quiet)
+    if not quiet:
+        say(f"wrote {output}")
+
+
+def gallery(
+    *names: str,
+    output: Annotated[str | None, Parameter(name=["--output", "-o"])] = None,
+    list_: Annotated[bool, Parameter(name="--list", negative="")] = False,
+    quiet: Flag = False,
+) -> None:
+    """Solve and draw gallery cases, each into a folder of its own with a report.
+
+    Parameters
+    ----------
+    names
+        Which cases; all of them if none is named.
+    output
+        Folder for the results.
+    list_
+        Only list the cases.
+    quiet
+        Show neither progress nor summary.
+    """
+    from crossview.export.figures import render as draw
+    from crossview.export.report import summary, write_files
+
+    paths = {name: cases.path_of(name) for name in names or cases.names()}
+    if list_:
+        for name in paths:
+            say(f"{name:16} {chosen_case(str(paths[name])).title}".rstrip())
+        return
+    if output is None:
+        raise CrossviewError("no folder for the results", "", "name one with -o, or --list")
+
+    def work(name: str, directory: Path) -> Generator[Progress, None, Solution]:
+        (solution,) = yield from solve_case(chosen_case(str(paths[name])))
+        yield Progress(f"drawing {name}", 0.9)
+        write_files(solution, directory)
+        draw(solution, directory / FIGURE)
+        return solution
+
+    for name in paths:
+        with staged(Path(output) / name) as staging:
+            solution = watch(work(name, staging), quiet)
+        if not quiet:
+            say(f"{name}: {summary(solution)}")
+
+
+def _size(text: str) -> tuple[int, int]:
+    sides = re.fullmatch(r"(\d{1,6})[xX](\d{1,6})", text.strip())
+    if sides is None:
+        raise CrossviewError(f'unknown size "{text}"', "--size", "write width x height: 1600x1200")
+    return int(sides[1]), int(sides[2])

@@ -1,0 +1,65 @@
+"""The command without a name: open the window."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import sys
+
+from crossview.gallery import find_case
+from solvers.errors import CrossviewError
+
+
+def window(file: str | None = None, /) -> None:
+    """Impose singularities on a surface, solve its cross-field, and see whether it is valid.
+
+    Opens the window; the commands do the same without one.
+
+    Parameters
+    ----------
+    file
+        A surface, a case, or the name of a gallery case.
+    """
+    if file is not None:
+        find_case(file)  # what is not there is told here, not by an empty window
+    require_display(file)
+    from crossview.gui.app import run  # Qt is loaded only for the window
+
+    run(file)
+
+
+def require_display(file: str | None) -> None:
+    """Refuse where there is no screen to open a window on.
+
+    Raises
+    ------
+    CrossviewError
+        No display is named, or the X server that is does not answer.
+    """
+    if not sys.platform.startswith("linux"):
+        return
+    if os.environ.get("WAYLAND_DISPLAY") or os.environ.get("QT_QPA_PLATFORM"):
+        return
+    display = os.environ.get("DISPLAY")
+    if display and _answers():
+        return
+    raise CrossviewError(
+        "no display to open the window on",
+        f"DISPLAY={display}" if display else "DISPLAY is not set",
+        f"crossview render {file or 'CASE'} -o figure.png draws without one",
+    )
+
+
+def _answers() -> bool:
+    """Whether the X server answers; Qt would end the process if it does not."""
+    try:
+        xcb = ctypes.CDLL("libxcb.so.1")
+    except OSError:
+        return True  # left to Qt, which names the libraries it misses
+    xcb.xcb_connect.restype = ctypes.c_void_p
+    xcb.xcb_connection_has_error.argtypes = [ctypes.c_void_p]
+    xcb.xcb_disconnect.argtypes = [ctypes.c_void_p]
+    connection = xcb.xcb_connect(None, None)
+    failed = bool(xcb.xcb_connection_has_error(connection))
+    xcb.xcb_disconnect(connection)
+    return not failed

@@ -1,0 +1,75 @@
+"""A solution as VTK polygonal data, as ParaView opens it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pyvista as pv
+from numpy.typing import NDArray
+
+from crossview.pipeline import Solution
+
+ARM = 0.35
+"""Length of a cross's arm in a triangle of typical H, in lengths of the triangle's size."""
+
+
+def field_surface(solution: Solution) -> pv.PolyData:
+    """The surface solved on: point data H; cell data theta (radians), u, v (unit vectors)."""
+    field = solution.field
+    mesh = pv.PolyData.from_regular_faces(solution.surface.vertices, solution.surface.faces)
+    mesh.point_data["H"] = field.H
+    mesh.cell_data["theta"] = field.theta
+    mesh.cell_data["u"] = field.u
+    mesh.cell_data["v"] = field.v
+    return mesh
+
+
+def cross_lines(solution: Solution) -> pv.PolyData:
+    """Two lines per triangle along u and v, their length proportional to exp(H).
+
+    Cell data: "face" the triangle of ``surface.vtp``, "axis" 0 for u and 1 for v, "H" there.
+    """
+    field, surface = solution.field, solution.surface
+    H = field.H[surface.faces].mean(axis=1)
+    # a typical cross just fits its triangle
+    typical = ARM * np.sqrt(np.median(surface.face_areas))
+    arm = (typical * np.exp(H - np.median(H)))[:, None]
+    ends = np.stack(
+        [
+            surface.barycentres + sign * arm * axis
+            for axis in (field.u, field.v)
+            for sign in (-1, 1)
+        ],
+        axis=1,
+    )
+    lines = np.arange(4 * surface.n_faces).reshape(-1, 2)
+    mesh = _lines(ends.reshape(-1, 3), lines)
+    mesh.cell_data["face"] = np.repeat(np.arange(surface.n_faces), 2)
+    mesh.cell_data["axis"] = np.tile([0, 1], surface.n_faces)
+    mesh.cell_data["H"] = np.repeat(H, 2)
+    return mesh
+
+
+def cut_lines(solution: Solution) -> pv.PolyData:
+    """The edges of the cut graph."""
+    used, pairs = np.unique(solution.cut_graph, return_inverse=True)
+    return _lines(solution.surface.vertices[used], pairs.reshape(-1, 2))
+
+
+def singularity_points(solution: Solution) -> pv.PolyData:
+    """The singularities as points with "valence" and "index" (quarter turns)."""
+    singularities = solution.singularities
+    points = solution.surface.positions([s.point for s in singularities])
+    mesh = pv.PolyData(points)
+    mesh.point_data["valence"] = np.array([s.valence for s in singularities], dtype=int)
+    mesh.point_data["index"] = np.array([s.index for s in singularities], dtype=int)
+    return mesh
+
+
+def _lines(points: NDArray[np.float64], pairs: NDArray[Any]) -> pv.PolyData:
+    """Separate line segments between pairs of points."""
+    mesh = pv.PolyData()
+    mesh.points = points.astype(np.float64).reshape(-1, 3)
+    mesh.lines = np.insert(pairs, 0, 2, axis=1).ravel()
+    return mesh

@@ -1,0 +1,46 @@
+"""The surface of a case: made or read, and repaired."""
+
+from __future__ import annotations
+
+from crossview.case import Builtin, Case
+from crossview.io import RawSurface, read_surface
+from solvers.errors import SurfaceError
+from solvers.primitives import BUILTIN
+from solvers.repair import Repaired, repair, repair_each
+
+
+def load_surfaces(case: Case) -> tuple[Repaired, ...]:
+    """The surface of a case, or every component of it if the case asks for all.
+
+    Each comes with notes on what was changed to make it a surface.
+
+    Raises
+    ------
+    CrossviewError
+        It cannot be read or is none, or has several components and the case chooses none.
+    """
+    if isinstance(case.surface, Builtin):
+        return (Repaired(BUILTIN[case.surface.name](**case.surface.parameters)),)
+    return mended(read_surface(case.surface), case)
+
+
+def mended(raw: RawSurface, case: Case) -> tuple[Repaired, ...]:
+    """What was read for a case, as the surface or surfaces it asks for."""
+    chosen, aggressive = case.options.component, case.options.repair
+    try:
+        if chosen == "all":
+            pieces = repair_each(raw.vertices, raw.faces, merge=raw.merge, aggressive=aggressive)
+        else:
+            pieces = (
+                repair(
+                    raw.vertices,
+                    raw.faces,
+                    merge=raw.merge,
+                    aggressive=aggressive,
+                    component=chosen,
+                ),
+            )
+    except SurfaceError as error:
+        where = f"{case.surface}, {error.where}" if error.where else str(case.surface)
+        raise SurfaceError(error.what, where, error.remedy, error.elements, error.kind) from error
+    return tuple(Repaired(piece.surface, (*raw.notes, *piece.notes)) for piece in pieces)
