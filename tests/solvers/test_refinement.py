@@ -1,0 +1,110 @@
+"""Refinement keeps shape, boundary and quality, and puts vertices at the singularities."""
+
+import numpy as np
+import pytest
+
+from solvers.isotropic import IsotropicSolver
+from solvers.points import SurfacePoint
+from solvers.primitives import BUILTIN
+from solvers.refinement import refine_at
+from solvers.singularities import default_corners
+from solvers.surface import TriSurface
+from tests.solvers.suite import SURFACES, at_vertices
+
+ANYWHERE = (
+    SurfacePoint(3, (1 / 3, 1 / 3, 1 / 3)),
+    SurfacePoint(40, (0.6, 0.3, 0.1)),
+    SurfacePoint(41, (0.5, 0.5, 0.0)),
+    SurfacePoint(90, (0.0, 0.0, 1.0)),
+    SurfacePoint(120, (0.2, 0.3, 0.5)),
+    SurfacePoint(120, (0.5, 0.2, 0.3)),
+)
+
+
+@pytest.mark.parametrize("name", SURFACES)
+@pytest.mark.parametrize("levels", [0, 1, 3])
+def test_shape_boundary_and_places_are_kept(name: str, levels: int) -> None:
+    surface = SURFACES[name]()
+    refinement = refine_at(surface, ANYWHERE, levels)
+    refined = refinement.surface
+    TriSurface(refined.vertices, refined.faces)  # a valid surface
+    assert refined.area == pytest.approx(surface.area, rel=1e-12)
+    assert refined.euler_characteristic == surface.euler_characteristic
+    assert (refined.vertices[: surface.n_vertices] == surface.vertices).all()
+    places = refined.vertices[refinement.vertices]
+    assert np.abs(places - surface.positions(ANYWHERE)).max() < 1e-14
+    assert [surface._loop_length(loop) for loop in surface.boundary_loops] == pytest.approx(
+        [refined._loop_length(loop) for loop in refined.boundary_loops]
+    )
+    assert default_corners(refined) == default_corners(surface)
+    # Each refined triangle lies in the plane of its parent, within it.
+    for corner in range(3):
+        for face in range(0, refined.n_faces, 7):
+            point = SurfacePoint(face, tuple(np.eye(3)[corner]))
+            lifted = refinement.lift(point)
+            gap = surface.position(lifted) - refined.position(point)
+            assert np.linalg.norm(gap) < 1e-12 * surface.diagonal
+
+
+def test_triangles_halve_with_each_level_and_stay_well_shaped() -> None:
+    surface = BUILTIN["sphere"](subdivisions=3)
+    point = SurfacePoint(5, (0.4, 0.35, 0.25))
+    sizes = []
+    for levels in range(1, 5):
+        refinement = refine_at(surface, [point], levels)
+        refined, vertex = refinement.surface, int(refinement.vertices[0])
+        around = (refined.faces == vertex).any(axis=1)
+        sizes.append(refined.triangulation.lengths[around].mean())
+        assert refined.triangle_quality.min() > 0.2
+    assert np.array(sizes[:-1]) / np.array(sizes[1:]) == pytest.approx([2, 2, 2], rel=0.4)
+
+
+def test_only_the_neighbourhood_changes() -> None:
+    surface = BUILTIN["torus"](n=36)
+    refinement = refine_at(surface, [SurfacePoint(0, (0.3, 0.3, 0.4))], 3)
+    untouched = np.bincount(refinement.parent_face, minlength=surface.n_faces) == 1
+    assert untouched.sum() > 0.95 * surface.n_faces
+
+
+def test_the_field_next_to_a_singularity_gets_better_with_refinement() -> None:
+    """On the disk, against the closed form, at a fixed small distance from the singularity."""
+    surface = BUILTIN["disk"](edge_length=0.1)
+    points = [
+        surface.closest_point([0.5 * np.cos(a), 0.5 * np.sin(a), 0]) for a in (0.2, 2, 3.5, 5)
+    ]
+    places = surface.positions(points) @ [1, 1j, 0]
+    errors = []
+    for levels in (0, 2, 4):
+        refinement = refine_at(surface, points, levels)
+        refined = refinement.surface
+        field = IsotropicSolver(refined).solve(
+            at_vertices(refined, refinement.vertices.tolist(), [3] * 4)
+        )
+        z = refined.vertices @ [1, 1j, 0]
+        rings = []
+        for place in places:
+            ring = refined.positions(
+                [
+                    refined.closest_point([w.real, w.imag, 0])
+                    for w in place + 0.02 * np.exp(1j * np.linspace(0, 6.2, 24))
+                ]
+            )
+            rings.append(ring @ [1, 1j, 0])
+        w = np.concatenate(rings)
+        found = np.array(
+            [
+                np.dot(p.barycentric, field.H[refined.faces[p.face]])
+                for p in (refined.closest_point([v.real, v.imag, 0]) for v in w)
+            ]
+        )
+        exact = (np.log(np.abs(w[:, None] - places) * np.abs(1 - w[:, None] * places.conj()))).sum(
+            1
+        )
+        far = np.argmin(np.abs(z))
+        level = (
+            np.log(np.abs(z[far] - places) * np.abs(1 - z[far] * places.conj())).sum() / 4
+            - field.H[far]
+        )
+        errors.append(np.abs(found - exact / 4 + level).max())
+    assert errors[1] < 0.5 * errors[0]
+    assert errors[2] < 0.5 * errors[1]
