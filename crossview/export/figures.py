@@ -27,7 +27,9 @@ from solvers.errors import CrossviewError
 # A picture of this height, in pixels, has texts and lines of the window's size.
 _NOMINAL_HEIGHT = 640.0
 # Each pixel is the mean of this many squared, as long as the whole stays below the limit.
-_SUPERSAMPLING, _MOST_PIXELS, _LONGEST_SIDE = 3, 40e6, 16384
+_SUPERSAMPLING, _MOST_PIXELS, _LONGEST_SIDE = 2, 40e6, 16384
+# Also makes wide lines end square, whatever their direction.
+_MULTI_SAMPLES = 4
 
 
 class FigureError(CrossviewError):
@@ -128,7 +130,7 @@ def picture(
         off_screen=True, window_size=(fine * width, fine * height), lighting="none"
     )
     try:
-        plotter.ren_win.SetMultiSamples(1)
+        plotter.ren_win.SetMultiSamples(_MULTI_SAMPLES)
         scene = Scene(plotter, fine * min(width, height * 4 / 3) / (_NOMINAL_HEIGHT * 4 / 3))
         scene.show(view)
         scene.fit(camera)

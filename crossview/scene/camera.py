@@ -155,6 +155,9 @@ def _fit(points: FloatArray, away: FloatArray, up: FloatArray, room: Room) -> Ca
     high, low = reach[0].max(axis=0), reach[1].max(axis=0)
     distance = float(((high + low) / (2.0 * size)).max())
     middle = (high - low) / 2.0 - centre * distance
+    for _ in range(4):  # Also in the middle where there is room to spare.
+        slopes = (seen[:, :2] - middle) / (distance - seen[:, 2:]) - centre
+        middle += 0.5 * (slopes.max(axis=0) + slopes.min(axis=0)) * distance
     eye = np.array([middle[0], middle[1], distance]) @ frame
     target = np.array([middle[0], middle[1], float(seen[:, 2].mean())]) @ frame
     return Camera(tuple(eye), tuple(target), tuple(frame[1]))

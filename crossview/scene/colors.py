@@ -46,6 +46,7 @@ COLOR_MAPS = {
 }
 DIVERGING = ("vik", "broc", "cork", "roma")
 CYCLIC = ("romaO", "vikO", "corkO")
+_DARK_END = 0.07
 
 
 @dataclass(frozen=True)
@@ -93,6 +94,8 @@ def color_table(name: str, over: float = 1.0, size: int = 256) -> npt.NDArray[np
     (size, 4) uint8
     """
     color_map: ListedColormap = COLOR_MAPS[name]
-    table: npt.NDArray[Any] = np.asarray(color_map(np.linspace(0.0, 1.0, size)))
+    # The outer ends of the diverging maps are near black: dark lines would be lost on them.
+    end = _DARK_END if name in DIVERGING else 0.0
+    table: npt.NDArray[Any] = np.asarray(color_map(np.linspace(end, 1.0 - end, size)))
     table[:, :3] = over * table[:, :3] + (1.0 - over) * np.array(rgb(SURFACE))
     return np.round(255.0 * table).astype(np.uint8)

@@ -13,7 +13,7 @@ from crossview.scene.view import SceneView
 from crossview.scene.watch import Watch
 
 # How many crosses there are at density 1: of a planar surface all are seen at once.
-_NUMBER, _NUMBER_PLANAR = 2600, 1700
+_NUMBER, _NUMBER_PLANAR = 2200, 1400
 # Half the length of a middling cross, in distances between crosses.
 _ARM = 0.38
 # exp(H) is shown within these factors of the middling size, so that all stay readable.

@@ -31,16 +31,22 @@ def ensure_rendering() -> None:
     if not sys.platform.startswith("linux"):
         return
     if os.environ.get("DISPLAY"):
-        _require({**ON_SCREEN, **OFF_SCREEN})
+        require({**ON_SCREEN, **OFF_SCREEN})
         return
     os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
-    _require(OFF_SCREEN)
+    require(OFF_SCREEN)
     if not _egl_starts():
         raise _missing(["a working OpenGL driver"], list(OFF_SCREEN.values()))
 
 
-def _require(packages: dict[str, str]) -> None:
-    """Raise unless every library loads; `packages` maps each to the package that holds it."""
+def require(packages: dict[str, str]) -> None:
+    """Raise unless every library loads; `packages` maps each to the package that holds it.
+
+    Raises
+    ------
+    RenderingError
+        Names what is missing and the command that installs it.
+    """
     missing = [library for library in packages if not _loads(library)]
     # Off screen, another vendor's EGL driver may stand in for Mesa's: then EGL starts.
     if missing == ["libEGL_mesa.so.0"] and _egl_starts():

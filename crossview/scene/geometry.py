@@ -27,16 +27,22 @@ class Triangles:
         """Length of the bounding box's diagonal; 1 for a single point."""
         return float(np.linalg.norm(np.ptp(self.points, axis=0))) or 1.0
 
+    @property
+    def corners(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Three times (m, 3)."""
+        first, second, third = self.faces.T
+        return self.points[first], self.points[second], self.points[third]
+
     @cached_property
     def barycentres(self) -> FloatArray:
         """(m, 3)."""
-        corners = self.points[self.faces]
-        return np.add.reduce(corners, axis=1) / 3.0
+        a, b, c = self.corners
+        return (a + b + c) / 3.0
 
     @cached_property
     def area_vectors(self) -> FloatArray:
         """(m, 3): normal times area."""
-        a, b, c = (self.points[self.faces[:, i]] for i in range(3))
+        a, b, c = self.corners
         return 0.5 * np.cross(b - a, c - a)
 
     @cached_property
@@ -53,7 +59,8 @@ class Triangles:
     def vertex_areas(self) -> FloatArray:
         """(n,): a third of the triangles around each vertex."""
         thirds = np.repeat(self.areas / 3.0, 3)
-        return np.bincount(self.faces.ravel(), thirds, minlength=len(self.points))
+        areas = np.bincount(self.faces.ravel(), thirds, minlength=len(self.points))
+        return np.asarray(areas, float)
 
     @cached_property
     def boundary_edges(self) -> IntArray:

@@ -13,8 +13,8 @@ from crossview.scene.geometry import FloatArray, IntArray, Triangles
 
 # Candidates per chosen site: enough to fill the surface, few enough to choose among at once.
 _CANDIDATES = 8.0
-# A maximal choice at distance r has about 0.8 / r^2 members per unit area.
-_PACKING = 0.9
+# A maximal choice at distance r has about 0.6 / r^2 members per unit area.
+_PACKING = 0.77
 # How far apart opposite directions of the normal count, in distances: thin sheets choose apart.
 _NORMAL_WEIGHT = 0.75
 # No site nearer to the boundary than this, in distances.

@@ -46,6 +46,8 @@ class Scene:
         self._view = SceneView()
         self._triangles: Triangles | None = None
         _light(plotter)
+        # VTK blends in no order by default, which leaves specks under multi-sampling.
+        plotter.renderer.SetUseOIT(False)
         self._surface = SurfaceLayer(plotter, pixel_ratio)
         self._bar = ColorBarLayer(plotter, pixel_ratio)
         kinds = (

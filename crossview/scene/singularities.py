@@ -40,8 +40,9 @@ _DISC = (
 _RING = (
     _AWAY
     + """
-  if (away < 0.84) discard;
-  fragOutput0 = vec4(diffuseColor, opacity);
+  if (away < 0.80) discard;
+  float edge = 1.0 - smoothstep(0.84, 0.86, away) + smoothstep(0.93, 0.95, away);
+  fragOutput0 = vec4(mix(diffuseColor, vec3(1.0), edge), opacity);
 """
 )
 

@@ -29,7 +29,6 @@ class SurfaceLayer:
 
     def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float) -> None:
         self._actor = MeshActor(plotter, "surface")
-        self._renderer = plotter.renderer
         self._pixel_ratio = pixel_ratio
         self._watch = Watch()
         self._origin: IntArray = np.empty(0, int)
@@ -60,8 +59,6 @@ class SurfaceLayer:
             self._actor.property.SetOpacity(settings.opacity)
             self._actor.property.SetEdgeVisibility(settings.edges)
             self._actor.property.SetLineWidth(self._pixel_ratio)
-            # What lies behind shows through in the right order only with peeling.
-            self._renderer.SetUseDepthPeeling(settings.opacity < 1.0)
 
     def remove(self) -> None:
         """Take the surface off the plotter."""
