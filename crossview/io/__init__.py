@@ -1,0 +1,91 @@
+"""Surface files: read what is in them, whoever wrote them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from crossview.io.libraries import read_gltf, read_msh, read_vtk, read_vtp
+from crossview.io.ply import read_ply
+from crossview.io.polygons import Polygons
+from crossview.io.stl import read_stl
+from crossview.io.text import read_obj, read_off
+from solvers.errors import CrossviewError
+from solvers.triangulation import FloatArray, IntArray
+
+READERS: dict[str, Callable[[Path], Polygons]] = {
+    ".obj": read_obj,
+    ".ply": read_ply,
+    ".stl": read_stl,
+    ".off": read_off,
+    ".vtk": read_vtk,
+    ".vtp": read_vtp,
+    ".gltf": read_gltf,
+    ".glb": read_gltf,
+    ".msh": read_msh,
+}
+SUFFIXES = tuple(READERS)
+"""The file name endings that can be read."""
+UNSHARED = {".stl", ".gltf", ".glb"}
+"""Formats that store a vertex again for each triangle, or along seams."""
+
+
+@dataclass(frozen=True)
+class RawSurface:
+    """What a file holds, before any repair.
+
+    Attributes
+    ----------
+    vertices : (n, 3) float array
+    faces : (m, 3) int array
+    notes : tuple of str
+        What reading changed or left out, in plain words.
+    merge : bool
+        Whether vertices at the same place are to be merged, because the format repeats them.
+    """
+
+    vertices: FloatArray
+    faces: IntArray
+    notes: tuple[str, ...] = ()
+    merge: bool = False
+
+
+def read_surface(path: str | Path) -> RawSurface:
+    """Read a surface file; polygons are split into triangles.
+
+    Parameters
+    ----------
+    path : str or Path
+        The format follows from its ending, one of `SUFFIXES`.
+
+    Raises
+    ------
+    CrossviewError
+        When there is no such file, or it is none of these formats, malformed, or without faces.
+    """
+    path = Path(path)
+    reader = READERS.get(path.suffix.lower())
+    if reader is None:
+        raise CrossviewError(
+            f'surfaces cannot be read from "{path.suffix}" files',
+            str(path),
+            f"use one of {' '.join(suffix[1:] for suffix in SUFFIXES)}",
+        )
+    try:
+        if path.stat().st_size == 0:
+            raise CrossviewError("the file is empty", str(path))
+        polygons = reader(path)
+        faces, notes = polygons.triangles()
+    except CrossviewError:
+        raise
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise CrossviewError(f"cannot open the file: {reason}", str(path)) from error
+    # a malformed file shows in the libraries as almost any exception
+    except Exception as error:
+        reason = str(error).strip().partition("\n")[0] or type(error).__name__
+        raise CrossviewError("cannot read this file", str(path), reason) from error
+    if not len(faces):
+        raise CrossviewError("the file holds no faces", str(path), "a surface needs triangles")
+    return RawSurface(polygons.points, faces, notes, path.suffix.lower() in UNSHARED)
