@@ -165,7 +165,7 @@ def _element_problems(vertices: FloatArray, faces: IntArray) -> Iterator[Surface
     bad = np.flatnonzero(degenerate_faces(vertices, faces))
     if len(bad):
         yield SurfaceError(
-            f"{len(bad)} degenerate triangles without area",
+            f"{counted(len(bad), 'degenerate triangle')} without area",
             f"triangles {listed(bad)}",
             "repair the surface, which drops them",
             bad,
@@ -174,7 +174,7 @@ def _element_problems(vertices: FloatArray, faces: IntArray) -> Iterator[Surface
     bad = np.flatnonzero(duplicate_faces(faces))
     if len(bad):
         yield SurfaceError(
-            f"{len(bad)} duplicate triangles",
+            counted(len(bad), "duplicate triangle"),
             f"triangles {listed(bad)}",
             "repair the surface, which drops them",
             bad,
@@ -185,7 +185,7 @@ def _element_problems(vertices: FloatArray, faces: IntArray) -> Iterator[Surface
     bad = np.flatnonzero(~used)
     if len(bad):
         yield SurfaceError(
-            f"{len(bad)} vertices belong to no triangle",
+            f"{counted(len(bad), 'vertex')} of no triangle",
             f"vertices {listed(bad)}",
             "repair the surface, which drops them",
             bad,
@@ -201,7 +201,7 @@ def _edge_problems(faces: IntArray, pairs: HalfedgePairs) -> Iterator[SurfaceErr
     if len(crowded):
         edges = np.unique(ends[crowded], axis=0)
         yield SurfaceError(
-            f"{len(edges)} non-manifold edges with more than two triangles",
+            f"{counted(len(edges), 'non-manifold edge')} with more than two triangles",
             f"edges {listed(edges)}",
             "repair the surface, which cuts it apart there",
             edges,
@@ -230,7 +230,7 @@ def _connection_problems(n_vertices: int, faces: IntArray, twin: IntArray) -> li
         bad = np.flatnonzero(np.bincount(vertex_of_fan, minlength=n_vertices) > 1)
         found.append(
             SurfaceError(
-                f"{len(bad)} non-manifold vertices where separate sheets touch",
+                f"{counted(len(bad), 'non-manifold vertex')} where separate sheets touch",
                 f"vertices {listed(bad)}",
                 "repair the surface, which cuts it apart there",
                 bad,

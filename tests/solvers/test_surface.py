@@ -94,7 +94,7 @@ BAD = {
     "degenerate": ([*SQUARE, [2, 0, 0]], [*HALVES, [1, 0, 4]], "1 degenerate", [2]),
     "repeated corner": (SQUARE, [*HALVES, [1, 1, 2]], "1 degenerate", [2]),
     "duplicate": (SQUARE, [*HALVES, [1, 2, 0]], "1 duplicate", [2]),
-    "unreferenced": ([*SQUARE, [5, 5, 5]], HALVES, "belong to no triangle", [4]),
+    "unreferenced": ([*SQUARE, [5, 5, 5]], HALVES, "of no triangle", [4]),
     "crowded edge": (TENT, [[0, 1, 2], [1, 0, 3], [0, 1, 4]], "non-manifold edge", [[0, 1]]),
     "orientation": (SQUARE, [[0, 1, 2], [0, 3, 2]], "oriented against", [[0, 2]]),
     "bow tie": (
@@ -125,5 +125,5 @@ def test_every_problem_is_listed_at_once() -> None:
     vertices = np.array([*SQUARE, [5, 5, 5]])
     faces = np.array([*HALVES, [1, 2, 0], [3, 3, 2]])
     told = " ".join(str(problem) for problem in problems(vertices, faces))
-    for part in ("degenerate", "duplicate", "belong to no triangle"):
+    for part in ("degenerate", "duplicate", "of no triangle"):
         assert part in told
