@@ -8,6 +8,9 @@ from solvers.errors import SurfaceError
 from solvers.primitives import BUILTIN
 from solvers.repair import Repaired, repair, repair_each
 
+OPTIONS = {"repair the surface": "repair", "choose the largest": "component"}
+"""The option of a case that does what a remedy starting so says."""
+
 
 def load_surfaces(case: Case) -> tuple[Repaired, ...]:
     """The surface of a case, or every component of it if the case asks for all.
@@ -41,6 +44,15 @@ def mended(raw: RawSurface, case: Case) -> tuple[Repaired, ...]:
                 ),
             )
     except SurfaceError as error:
-        where = f"{case.surface}, {error.where}" if error.where else str(case.surface)
-        raise SurfaceError(error.what, where, error.remedy, error.elements, error.kind) from error
+        raise _explained(error, str(case.surface)) from error
     return tuple(Repaired(piece.surface, (*raw.notes, *piece.notes)) for piece in pieces)
+
+
+def _explained(error: SurfaceError, path: str) -> SurfaceError:
+    """The same error with the file it is about and the option that mends it."""
+    where = f"{path}, {error.where}" if error.where else path
+    remedy = error.remedy
+    for start, option in OPTIONS.items():
+        if remedy.startswith(start):
+            remedy += f" (option {option})"
+    return SurfaceError(error.what, where, remedy, error.elements, error.kind)

@@ -1,0 +1,292 @@
+"""The command line: bad input is one line and leaves nothing behind, good input is scriptable."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import pyvista as pv
+
+from solvers.primitives import sphere, square, torus
+
+PROGRAM = Path(sys.executable).with_name("crossview")
+
+
+def run(*arguments, **environment):
+    """The real entry point in a process of its own, by default without a display."""
+    without = {"DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"}
+    clean = {k: v for k, v in os.environ.items() if k not in without}
+    return subprocess.run(
+        [PROGRAM, *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        env=clean | environment,
+    )
+
+
+def write_obj(path, vertices, faces):
+    rows = ["v {} {} {}".format(*v) for v in vertices]
+    rows += ["f {} {} {}".format(*(np.array(f) + 1)) for f in faces]
+    path.write_text("\n".join(rows) + "\n")
+    return path
+
+
+@pytest.fixture
+def two_pieces(tmp_path):
+    """A torus and, far from it, a smaller sphere."""
+    first, second = torus(n=24), sphere(2)
+    vertices = np.concatenate([first.vertices, second.vertices + [10, 0, 0]])
+    faces = np.concatenate([first.faces, second.faces + first.n_vertices])
+    return write_obj(tmp_path / "two.obj", vertices, faces)
+
+
+def refused(ran, tmp_path, *said):
+    """One line that says all of `said`; status 2; the folder as it was."""
+    assert ran.err.startswith("crossview: error: ")
+    assert ran.err.count("\n") == 1
+    for words in said:
+        assert words in ran.err
+    assert ran.status == 2
+    assert ran.out == ""
+    assert not (tmp_path / "out").exists()
+    assert not list(tmp_path.glob(".crossview-*"))
+
+
+@pytest.mark.parametrize(
+    ("case", "said"),
+    [
+        ({"surface": "none.obj"}, ["no such file", "none.obj"]),
+        ({"surface": "torus", "metod": "x"}, ['unknown key "metod"', 'did you mean "method"?']),
+        ({"surface": "torus", "method": "aligned"}, ['"aligned" is not', "available: isotropic"]),
+        ({"surface": {"builtin": "torus", "n": -1}}, ["n must be"]),
+        ({"surface": {"builtin": "torus", "n": "many"}}, ["n must be"]),
+        (
+            {"surface": "torus", "singularities": [{"position": [1, 0, 0], "valence": 0}]},
+            ["valence must be at least 1", "singularities[0].valence"],
+        ),
+        (
+            {"surface": "torus", "singularities": [{"position": [1, 0, float("nan")]}]},
+            ['the key "valence" is missing', "singularities[0]"],
+        ),
+        (
+            {
+                "surface": "torus",
+                "singularities": [
+                    {"position": [1.4, 0, 0], "valence": 3},
+                    {"position": [3, 0, 0], "valence": 5},
+                ],
+            },
+            ["singularity #2", "39.6 %", "at 3, 0, 0", "within 5 %"],
+        ),
+        ({"surface": "sphere"}, ["miss the index budget, 0 of 8", "add 8 valence 3"]),
+        (
+            {"surface": "square", "singularities": [{"position": [0.5, 0, 0], "valence": 4}]},
+            ["singularity 1 lies on the boundary", "move it inside"],
+        ),
+        (
+            {
+                "surface": "torus",
+                "singularities": [
+                    {"position": [1.4, 0, 0], "valence": 3},
+                    {"position": [1.4, 0, 0], "valence": 5},
+                ],
+            },
+            ["singularities 1 and 2", "move one of them away"],
+        ),
+        (
+            {"surface": "torus", "corners": [{"position": [1.4, 0, 0], "index": 1}]},
+            ["corner #1 is on a surface without boundary", "remove it"],
+        ),
+        (
+            {"surface": "square", "corners": [{"position": [0, 0, 0], "index": 1}]},
+            ["corner #1", "35.4 %", "within 5 %"],
+        ),
+        (
+            {
+                "surface": "square",
+                "corners": [{"position": [0.5, 0.5, z], "index": 1} for z in (0, 0.01)],
+            },
+            ["corner #2 is at the same boundary vertex as another"],
+        ),
+    ],
+)
+def test_a_wrong_case_is_refused(crossview, tmp_path, case, said):
+    (tmp_path / "case.json").write_text(json.dumps(case))
+    refused(crossview("solve", tmp_path / "case.json", "-o", tmp_path / "out"), tmp_path, *said)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["solve", "torus"], ["--output", "see crossview solve --help"]),
+        (["solve", "torus", "-o", "out", "--metod", "x"], ["--metod", "solve --help"]),
+        (["slove", "torus"], ['unknown command "slove"', 'did you mean "solve"?']),
+        (["--nope"], ["--nope", "see crossview --help"]),
+        (["torrus"], ["no such file", 'did you mean "torus"?']),
+        (["missing.obj"], ["no such file (missing.obj)"]),
+        (["solve", "missing.json", "-o", "out"], ["No such file", "missing.json"]),
+        (["solve", "torus", "-o", "out", "--method", "anisotropic"], ["available: isotropic"]),
+        (["solve", "torus", "-o", "out", "--component", "big"], ['"big"', "largest, all or"]),
+        (["solve", "torus", "-o", "file/out"], ["cannot write, Not a directory", "file/out"]),
+        (["solve", "torus", "-o", "file"], ["cannot write, Not a directory", "file"]),
+        (["info", "picture.png"], ["picture.png"]),
+        (["info", "."], ["."]),
+        (["render", "torus", "-o", "out/a.xyz"], ["unknown kind of figure"]),
+        (["render", "torus", "-o", "out/a.png", "--layers", "G"], ['no layer "G"']),
+        (["render", "torus", "-o", "out/a.png", "--size", "big"], ['unknown size "big"']),
+        (["render", "torus", "-o", "out/a.png", "--size", "9x9"], ["cannot draw 9 x 9"]),
+        (["render", "torus", "-o", "out/a.png", "--scale", "x"], ["--scale", "render --help"]),
+        (["render", "torus", "-o", "out/a.png", "--camera", "up"], ['no camera "up"']),
+        (["render", "torus", "-o", "out/a.png", "--component", "all"], ["--component"]),
+        (["gallery", "none", "-o", "out"], ['no gallery case "none"']),
+        (["gallery"], ["no folder for the results", "-o"]),
+    ],
+)
+def test_a_wrong_command_line_is_refused(crossview, tmp_path, monkeypatch, arguments, said):
+    (tmp_path / "file").write_text("")
+    (tmp_path / "picture.png").write_bytes(b"\x89PNG")
+    monkeypatch.chdir(tmp_path)
+    refused(crossview(*arguments), tmp_path, *said)
+
+
+def test_a_failed_solve_leaves_earlier_results_alone(crossview, tmp_path):
+    assert crossview("solve", "square", "-o", tmp_path / "out").status == 0
+    before = {p: p.stat().st_mtime_ns for p in (tmp_path / "out").iterdir()}
+    assert crossview("solve", "sphere", "-o", tmp_path / "out").status == 2
+    assert {p: p.stat().st_mtime_ns for p in (tmp_path / "out").iterdir()} == before
+
+
+def test_info_describes_a_surface(crossview):
+    found = crossview("info", "annulus", "--json").json
+    (piece,) = found["components"]
+    assert found["problems"] == []
+    assert (piece["euler_characteristic"], piece["genus"], piece["boundary_loops"]) == (0, 0, 2)
+    assert piece["boundary_lengths"] == pytest.approx([2 * np.pi, 0.8 * np.pi], rel=1e-3)
+    assert piece["area"] == pytest.approx(0.84 * np.pi, rel=1e-2)
+    assert piece["index_budget"]["satisfied"]
+    text = crossview("info", "annulus").out
+    assert "genus 0, 2 boundary loops" in text
+    assert "index 0 of 0" in text
+
+
+def test_info_of_a_case_counts_its_singularities(crossview, case_file):
+    path = case_file("sphere", [((0, 0, 1), 1), ((0, 0, -1), 2)])
+    (piece,) = crossview("info", path, "--json").json["components"]
+    budget = piece["index_budget"]
+    assert (budget["index_sum"], budget["required"], budget["missing"]) == (5, 8, 3)
+    assert "add 3 valence 3" in budget["remedies"]
+
+
+def test_info_reports_what_is_wrong_with_a_surface(crossview, tmp_path):
+    """Three triangles at one edge, one of them twice: nothing to solve on, but all is named."""
+    vertices = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1)]
+    faces = [(0, 1, 2), (1, 0, 3), (0, 1, 4), (0, 1, 2)]
+    path = write_obj(tmp_path / "bad.obj", vertices, faces)
+    found = crossview("info", path, "--json").json
+    elements = {p["message"].split(" (")[0]: p["elements"] for p in found["problems"]}
+    assert elements["1 duplicate triangle"] == [3]
+    assert elements["1 non-manifold edge with more than two triangles"] == [[0, 1]]
+    assert found["components"] == []
+    assert (found["vertices"], found["faces"]) == (5, 4)
+    assert "problem: 1 duplicate triangle" in crossview("info", path).out
+    # and the command that would solve on it refuses, but can mend it
+    ran = crossview("solve", path, "-o", tmp_path / "out")
+    refused(ran, tmp_path, "bad.obj", "duplicate", "(option repair)")
+    assert crossview("info", path, "--repair", "--json").json["components"] != []
+
+
+def test_info_lists_all_components(crossview, two_pieces):
+    found = crossview("info", two_pieces, "--json").json
+    assert [piece["genus"] for piece in found["components"]] == [1, 0]
+    assert [piece["index_budget"]["required"] for piece in found["components"]] == [0, 8]
+    assert "2 separate components" in found["problems"][0]["message"]
+    (piece,) = crossview("info", two_pieces, "--component", "1", "--json").json["components"]
+    assert piece["genus"] == 0
+
+
+def test_a_surface_in_several_components(crossview, two_pieces, tmp_path, case_file):
+    out = tmp_path / "out"
+    ran = crossview("solve", two_pieces, "-o", out)
+    refused(ran, tmp_path, "2 separate components", "largest", "(option component)")
+    assert crossview("solve", two_pieces, "-o", out, "--component", "largest").status == 0
+    report = json.loads((out / "report.json").read_text())
+    assert report["surface"]["genus"] == 1
+    assert any("kept the largest of 2 components" in note for note in report["notes"])
+    # each singularity goes to the component it is on
+    poles = [((10, 0, 1), 1), ((10, 0, -1), 1), ((11, 0, 0), 2)]
+    case = case_file("two.obj", poles, options={"component": "all"})
+    ran = crossview("solve", case, "-o", tmp_path / "all", "--json")
+    assert [report["surface"]["genus"] for report in ran.json] == [1, 0]
+    assert [len(report["singularities"]) for report in ran.json] == [0, 3]
+    for number in (0, 1):
+        written = (tmp_path / "all" / f"component-{number}" / "report.json").read_text()
+        assert json.loads(written) == ran.json[number]
+
+
+def test_stl_is_merged_with_a_note(crossview, tmp_path):
+    made = square(8)
+    path = tmp_path / "square.stl"
+    pv.PolyData.from_regular_faces(made.vertices, made.faces).save(path)
+    assert crossview("solve", path, "-o", tmp_path / "out").status == 0
+    report = json.loads((tmp_path / "out" / "report.json").read_text())
+    assert report["surface"]["vertices"] == 81
+    assert any("merged" in note for note in report["notes"])
+
+
+def test_render_draws_the_chosen_layers(crossview, tmp_path):
+    picture = tmp_path / "new" / "square.png"
+    ran = crossview(
+        "render", "square", "-o", picture, "--size", "200x150", "--scale", "2",
+        "--layers", "surface,crosses", "--transparent",
+    )  # fmt: skip
+    assert ran.status == 0, ran.err
+    assert ran.out == f"wrote {picture}\n"
+    pixels = pv.read(picture)
+    assert pixels.dimensions[:2] == (400, 300)
+    colours = pixels.active_scalars
+    assert colours.shape[1] == 4
+    assert (colours[:, 3] == 0).any()
+    assert (colours[:, 3] == 255).any()
+
+
+def test_the_real_program(tmp_path):
+    assert run("--version").stdout.strip().count(".") == 2
+    shown = run("--help")
+    assert shown.returncode == 0
+    for command in ("info", "solve", "render", "gallery"):
+        assert command in shown.stdout
+    ran = run("solve", "square", "-o", tmp_path / "out", "--json")
+    assert (ran.returncode, ran.stderr) == (0, "")
+    assert json.loads(ran.stdout)["isotropically_valid"]
+    ran = run("solve", tmp_path / "none.json", "-o", tmp_path / "none")
+    assert ran.returncode == 2
+    assert ran.stderr.startswith("crossview: error: ")
+    assert ran.stderr.count("\n") == 1
+    assert not (tmp_path / "none").exists()
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="other systems have a screen")
+@pytest.mark.parametrize("environment", [{}, {"DISPLAY": ":987"}])
+def test_the_window_without_a_display_says_what_to_do(environment):
+    ran = run("torus", **environment)
+    assert ran.returncode == 2
+    assert "no display" in ran.stderr
+    assert "crossview render torus -o figure.png" in ran.stderr
+    assert ran.stderr.count("\n") == 1
+
+
+def test_long_work_shows_its_progress(case_file, tmp_path):
+    """A terminal sees a bar for work of more than a second; what is piped stays clean."""
+    path = case_file({"builtin": "square", "n": 400})
+    ran = run("solve", path, "-o", tmp_path / "out", FORCE_COLOR="1", TERM="xterm")
+    assert ran.returncode == 0, ran.stderr
+    assert "━" in ran.stderr
+    assert "wrote" in ran.stdout
+    ran = run("solve", path, "-o", tmp_path / "out", "--quiet", FORCE_COLOR="1", TERM="xterm")
+    assert (ran.stdout, ran.stderr) == ("", "")
