@@ -32,11 +32,13 @@ class AddSingularities:
 
     @property
     def name(self) -> str:
+        """Name of the step."""
         if len(self.added) == 1:
             return f"add valence {self.added[0].valence}"
         return f"add {len(self.added)} singularities"
 
     def apply(self, document: Document) -> Document:
+        """Return the document with them appended."""
         return document.with_singularities((*document.singularities, *self.added))
 
 
@@ -49,9 +51,11 @@ class MoveSingularity:
 
     @property
     def name(self) -> str:
+        """Name of the step."""
         return f"move singularity {self.index + 1}"
 
     def apply(self, document: Document) -> Document:
+        """Return the document with it moved."""
         return _with_changed(document, self.index, point=self.point)
 
 
@@ -64,9 +68,11 @@ class ChangeValence:
 
     @property
     def name(self) -> str:
+        """Name of the step."""
         return f"make singularity {self.index + 1} a valence {self.valence}"
 
     def apply(self, document: Document) -> Document:
+        """Return the document with the valence changed."""
         return _with_changed(document, self.index, valence=self.valence)
 
 
@@ -79,9 +85,11 @@ class LockSingularity:
 
     @property
     def name(self) -> str:
+        """Name of the step."""
         return f"{'lock' if self.locked else 'unlock'} singularity {self.index + 1}"
 
     def apply(self, document: Document) -> Document:
+        """Return the document with the lock changed."""
         return _with_changed(document, self.index, locked=self.locked)
 
 
@@ -93,11 +101,13 @@ class RemoveSingularities:
 
     @property
     def name(self) -> str:
+        """Name of the step."""
         if len(self.indices) == 1:
             return f"delete singularity {min(self.indices) + 1}"
         return f"delete {len(self.indices)} singularities"
 
     def apply(self, document: Document) -> Document:
+        """Return the document without them."""
         kept = (s for i, s in enumerate(document.singularities) if i not in self.indices)
         return document.with_singularities(tuple(kept))
 

@@ -1,9 +1,9 @@
 """Background work where only the latest request matters.
 
-One worker thread runs one job at a time. A job is a generator that yields Progress and returns its
-result. A newer request replaces a waiting one and stops the running one at its next yield; a job that
-never yields (one back-substitution of a drag) is left to finish, so that a stream of requests still
-shows results instead of cancelling each other for ever.
+One worker thread runs one job at a time. A job is a generator that yields Progress and returns
+its result. A newer request replaces a waiting one and stops the running one at its next yield; a
+job that never yields (one back-substitution of a drag) is left to finish, so that a stream of
+requests still shows results instead of cancelling each other for ever.
 """
 
 from __future__ import annotations
@@ -84,7 +84,7 @@ class LatestJobs:
             return self._waiting is not None or self._running is not None
 
     def submit(self, job: Job) -> int:
-        """Request `job`, superseding all earlier ones; return its ticket, larger than any before."""
+        """Request `job` in place of all earlier ones; return its ticket, larger than theirs."""
         with self._condition:
             if self._closed:
                 raise RuntimeError("the job queue is closed")

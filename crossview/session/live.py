@@ -1,9 +1,9 @@
 """Editing while the mouse moves: a kept factor, no refinement.
 
-The surface of the last solution is refined around where its singularities were. While one of them is
-dragged, or a new one is only considered, the others stay at their vertices and the moving one is
-spread over the triangle it is in; the answer costs one back-substitution (the field) or a table
-look-up (the holonomy defects).
+The surface of the last solution is refined around where its singularities were. While one of
+them is dragged, or a new one is only considered, the others stay at their vertices and the moving
+one is spread over the triangle it is in; the answer costs one back-substitution (the field) or a
+table look-up (the holonomy defects).
 """
 
 from __future__ import annotations
@@ -14,7 +14,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from crossview.pipeline import Solution
+from crossview.pipeline import Pipeline, Solution
+from crossview.problem import Problem
 from crossview.session.document import Document
 from solvers.crossfield import CrossField
 from solvers.isotropic import IsotropicSolver
@@ -115,7 +116,20 @@ class LiveEdit:
     def solve(self) -> Generator[Progress, None, CrossField]:
         """Return the field of this moment; never yields, so that it is never cut short."""
         yield from ()
-        return self.base.solver.solve(self.singularities)
+        return with_directions(self.base.solver.solve(self.singularities))
+
+
+def solve(pipeline: Pipeline, problem: Problem) -> Generator[Progress, None, Solution]:
+    """Solve with refinement, all that is drawn included."""
+    solution = yield from pipeline.solve(problem)
+    with_directions(solution.field)
+    return solution
+
+
+def with_directions(field: CrossField) -> CrossField:
+    """Return `field` with its crosses computed: they are cached, and drawing asks for them."""
+    _ = field.u, field.v
+    return field
 
 
 def cut(solution: Solution) -> Generator[Progress, None, NDArray[np.int64]]:

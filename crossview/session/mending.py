@@ -70,11 +70,13 @@ def _last_changeable(document: Document, missing: int) -> Mending | None:
         if singularity.locked or not MIN_VALENCE <= valence <= MAX_VALENCE:
             continue
         if valence == 4:  # regular: it is to go
-            removal = RemoveSingularities(frozenset({index}))
-            return Mending(f"Delete #{index + 1}", lambda: _ready(removal))
-        change = ChangeValence(index, valence)
-        return Mending(f"Make #{index + 1} a valence {valence}", lambda: _ready(change))
+            return _offer(f"Delete #{index + 1}", RemoveSingularities(frozenset({index})))
+        return _offer(f"Make #{index + 1} a valence {valence}", ChangeValence(index, valence))
     return None
+
+
+def _offer(label: str, command: Command) -> Mending:
+    return Mending(label, lambda: _ready(command))
 
 
 def _ready(command: Command) -> Generator[Progress, None, Command]:

@@ -1,0 +1,43 @@
+"""Starting the window."""
+
+from __future__ import annotations
+
+import sys
+
+from PySide6.QtWidgets import QApplication
+
+from crossview.gui.icons import icon
+from crossview.gui.main_window import MainWindow
+from crossview.scene import ensure_rendering
+
+
+def application() -> QApplication:
+    """Return the application, made and named on first call."""
+    present = QApplication.instance()
+    app = present if isinstance(present, QApplication) else QApplication(sys.argv[:1])
+    app.setOrganizationName("crossview")
+    app.setApplicationName("crossview")
+    app.setWindowIcon(icon("crossview"))
+    return app
+
+
+def run(path: str | None) -> int:
+    """Open the window, on `path` (a file, gallery case or built-in surface) if there is one.
+
+    Returns
+    -------
+    int
+        The process's exit status.
+
+    Raises
+    ------
+    RenderingError
+        The machine lacks what drawing needs.
+    """
+    ensure_rendering()
+    app = application()
+    window = MainWindow()
+    window.show()
+    if path is not None:
+        window.files.open(path)
+    return app.exec()

@@ -1,0 +1,69 @@
+"""What is shown before anything is open: where to drop a file, and three cases to begin with."""
+
+from __future__ import annotations
+
+from importlib.resources import files
+
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtGui import QIcon, QPixmap
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QToolButton, QVBoxLayout, QWidget
+
+from crossview.gui.icons import icon
+
+THUMBNAIL = QSize(208, 156)
+FEATURED = (
+    ("sphere-cube", "Cube on a sphere"),
+    ("disk-4", "Four on a disk"),
+    ("suboptimal", "Plate with holes"),
+)
+
+
+class EmptyState(QWidget):
+    """Never a blank grey box."""
+
+    chosen = Signal(str)
+    """Name of a gallery case."""
+    open_wanted = Signal()
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setAutoFillBackground(True)
+        self.setBackgroundRole(self.palette().ColorRole.Base)
+        drop = QLabel()
+        drop.setPixmap(icon("drop").pixmap(QSize(40, 40)))
+        title = QLabel("Drop a surface here, or start from a gallery case")
+        font = title.font()
+        font.setPointSizeF(font.pointSizeF() * 1.5)
+        title.setFont(font)
+        formats = QLabel("OBJ, PLY, STL, OFF, VTK, VTP, GLTF, GLB, MSH, or a case as JSON")
+        formats.setForegroundRole(self.palette().ColorRole.PlaceholderText)
+        browse = QPushButton(icon("open"), "Open a file…")
+        browse.clicked.connect(self.open_wanted)
+        self.thumbnails = [self._thumbnail(name, text) for name, text in FEATURED]
+        row = QHBoxLayout()
+        row.setSpacing(16)
+        row.addStretch()
+        for button in self.thumbnails:
+            row.addWidget(button)
+        row.addStretch()
+        layout = QVBoxLayout(self)
+        layout.addStretch(3)
+        for widget, space in ((drop, 8), (title, 4), (formats, 16), (browse, 32)):
+            layout.addWidget(widget, 0, Qt.AlignmentFlag.AlignHCenter)
+            layout.addSpacing(space)
+        layout.addLayout(row)
+        layout.addStretch(4)
+
+    def _thumbnail(self, name: str, text: str) -> QToolButton:
+        button = QToolButton()
+        button.setObjectName(name)
+        button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextUnderIcon)
+        button.setAutoRaise(True)
+        button.setIconSize(THUMBNAIL)
+        picture = files("crossview.resources") / "thumbnails" / f"{name}.png"
+        pixmap = QPixmap()
+        pixmap.loadFromData(picture.read_bytes())
+        button.setIcon(QIcon(pixmap))
+        button.setText(text)
+        button.clicked.connect(lambda: self.chosen.emit(name))
+        return button

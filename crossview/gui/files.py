@@ -1,0 +1,85 @@
+"""Opening, saving and exporting: the dialogs, and what they lead to."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtWidgets import QFileDialog
+
+from crossview.gui.recent import remember
+from crossview.io import SUFFIXES
+from crossview.session.document import Document
+
+if TYPE_CHECKING:
+    from crossview.gui.main_window import MainWindow
+
+
+class Files:
+    """File verbs of a window."""
+
+    def __init__(self, window: MainWindow) -> None:
+        self._window = window
+        self._target = ""
+
+    def open(self, target: str) -> None:
+        """Open a file, a gallery case or a built-in surface."""
+        self._target = target
+        self._window.workspace.open(target)
+
+    def opened(self, document: Document) -> None:
+        """Remember what was opened, when it is a file."""
+        if Path(self._target).is_file():
+            remember(self._target)
+
+    def reopen_largest(self) -> None:
+        """Open the same again and keep its largest piece."""
+        self._window.workspace.open(self._target, "largest")
+
+    def ask_open(self) -> None:
+        """Ask for a surface or a case and open it."""
+        patterns = " ".join(f"*{suffix}" for suffix in sorted(SUFFIXES))
+        path, _ = QFileDialog.getOpenFileName(
+            self._window,
+            "Open a surface or a case",
+            self._folder(),
+            f"Surfaces and cases ({patterns} *.json);;All files (*)",
+        )
+        if path:
+            self.open(path)
+
+    def ask_save(self) -> None:
+        """Ask where to write the case, and write it."""
+        path, _ = QFileDialog.getSaveFileName(
+            self._window, "Save the case", self._suggested(".json"), "Cases (*.json)"
+        )
+        if path:
+            self.save(Path(path))
+
+    def save(self, path: Path) -> None:
+        """Write the present document as a case file."""
+        document = self._window.workspace.state.document
+        if document is not None:
+            self._window.workspace.attempt("save", lambda: document.to_case().save(path))
+
+    def ask_figure(self) -> None:
+        """Ask where to write the figure, and write it."""
+        path, _ = QFileDialog.getSaveFileName(
+            self._window, "Export the figure", self._suggested(".png"), "Pictures (*.png)"
+        )
+        if path:
+            self.export(Path(path))
+
+    def export(self, path: Path) -> None:
+        """Write what is shown as a PNG with the settings of the Export panel."""
+        window = self._window
+        settings = window.export_panel.settings
+        window.workspace.attempt("export", lambda: window.viewport.export(path, settings))
+
+    def _folder(self) -> str:
+        return str(Path(self._target).parent) if Path(self._target).is_file() else str(Path.home())
+
+    def _suggested(self, suffix: str) -> str:
+        document = self._window.workspace.state.document
+        name = "crossview" if document is None else document.name
+        return str(Path(self._folder()) / f"{name}{suffix}")

@@ -1,0 +1,87 @@
+"""Icons: one family of line drawings, in the colours of the theme."""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib.resources import files
+
+from PySide6.QtCore import QByteArray, QRectF, Qt
+from PySide6.QtGui import QColor, QIcon, QPainter, QPalette, QPixmap
+from PySide6.QtSvg import QSvgRenderer
+from PySide6.QtWidgets import QApplication
+
+from crossview.scene.colors import valence_color
+
+SIZES = (16, 20, 32, 40)
+
+
+def icon(name: str) -> QIcon:
+    """Return the icon `name` of resources/icons, grey when disabled."""
+    palette = QApplication.palette()
+    text = palette.color(QPalette.ColorRole.ButtonText).name()
+    disabled = palette.color(QPalette.ColorGroup.Disabled, QPalette.ColorRole.ButtonText).name()
+    return _icon(name, text, disabled)
+
+
+def colored_icon(name: str, color: str) -> QIcon:
+    """Return the icon `name` in one colour."""
+    return _icon(name, color, color)
+
+
+@cache
+def _icon(name: str, color: str, disabled: str) -> QIcon:
+    svg = (files("crossview.resources") / "icons" / f"{name}.svg").read_text()
+    made = QIcon()
+    for mode, ink in ((QIcon.Mode.Normal, color), (QIcon.Mode.Disabled, disabled)):
+        renderer = QSvgRenderer(QByteArray(svg.replace("currentColor", ink).encode()))
+        for size in SIZES:
+            pixmap = QPixmap(size, size)
+            pixmap.fill(Qt.GlobalColor.transparent)
+            with QPainter(pixmap) as painter:
+                renderer.render(painter, QRectF(0, 0, size, size))
+            made.addPixmap(pixmap, mode)
+    return made
+
+
+def valence_icon(valence: int | None, text: str | None = None) -> QIcon:
+    """Return a disk in the colour of `valence` with its number, or grey with `text`."""
+    made = QIcon()
+    for size in SIZES:
+        pixmap = QPixmap(size, size)
+        pixmap.fill(Qt.GlobalColor.transparent)
+        with QPainter(pixmap) as painter:
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            _paint_disk(painter, QRectF(0, 0, size, size), valence, text)
+        made.addPixmap(pixmap)
+    return made
+
+
+def _paint_disk(painter: QPainter, area: QRectF, valence: int | None, text: str | None) -> None:
+    color = QColor("#8a8f98") if valence is None else QColor(valence_color(valence))
+    inset = area.width() * 0.08
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(color)
+    painter.drawEllipse(area.adjusted(inset, inset, -inset, -inset))
+    font = painter.font()
+    font.setPixelSize(max(7, round(area.height() * 0.56)))
+    font.setBold(True)
+    painter.setFont(font)
+    painter.setPen(QColor("white") if color.lightnessF() < 0.6 else QColor("#222222"))
+    label = text if text is not None else str(valence)
+    painter.drawText(area, Qt.AlignmentFlag.AlignCenter, label)
+
+
+def dot_icon(color: str) -> QIcon:
+    """Return a small plain disk: a verdict or a valence in a table."""
+    made = QIcon()
+    for size in SIZES:
+        pixmap = QPixmap(size, size)
+        pixmap.fill(Qt.GlobalColor.transparent)
+        with QPainter(pixmap) as painter:
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(QColor(color))
+            inset = size * 0.22
+            painter.drawEllipse(QRectF(inset, inset, size - 2 * inset, size - 2 * inset))
+        made.addPixmap(pixmap)
+    return made

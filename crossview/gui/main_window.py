@@ -1,0 +1,166 @@
+"""The window: the parts put together, each following the one state."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import (
+    QCloseEvent,
+    QDragEnterEvent,
+    QDropEvent,
+    QKeyEvent,
+    QResizeEvent,
+)
+from PySide6.QtWidgets import QMainWindow, QMessageBox, QStackedWidget, QVBoxLayout, QWidget
+
+import crossview
+from crossview.gui.actions import Actions
+from crossview.gui.docks import add_docks
+from crossview.gui.empty_state import EmptyState
+from crossview.gui.files import Files
+from crossview.gui.menus import Menus, make_toolbar
+from crossview.gui.message_bar import MessageBar
+from crossview.gui.palette import Palette
+from crossview.gui.panels import (
+    ExportPanel,
+    LayersPanel,
+    SingularitiesPanel,
+    SurfacePanel,
+    ValidityPanel,
+)
+from crossview.gui.state import WindowState
+from crossview.gui.status import Status
+from crossview.gui.viewport import Viewport
+from crossview.gui.workspace import Workspace
+from crossview.session.document import Document
+
+
+class Centre(QWidget):
+    """The empty state or the viewport, and the message bar floating over them."""
+
+    def __init__(self, workspace: Workspace) -> None:
+        super().__init__()
+        self.empty = EmptyState()
+        self.viewport = Viewport(workspace)
+        self.stack = QStackedWidget()
+        self.stack.addWidget(self.empty)
+        self.stack.addWidget(self.viewport)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(self.stack)
+        self.message_bar = MessageBar(workspace, self)
+
+    def show_state(self, old: WindowState, new: WindowState) -> None:
+        """Follow the window's state."""
+        self.stack.setCurrentWidget(self.empty if new.document is None else self.viewport)
+        self.viewport.show_state(old, new)
+        self.message_bar.show_state(old, new)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Keep the bar in its place."""
+        super().resizeEvent(event)
+        self.message_bar.place()
+
+
+class MainWindow(QMainWindow):
+    """One window, one surface."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setWindowTitle("crossview")
+        self.resize(1440, 900)
+        self.setAcceptDrops(True)
+        self.workspace: Workspace = Workspace(self)
+        self.files: Files = Files(self)
+        self.centre: Centre = Centre(self.workspace)
+        self.setCentralWidget(self.centre)
+        self.viewport: Viewport = self.centre.viewport
+        self.actions_table = Actions(self)
+        named = self.actions_table.by_name
+        self.surface_panel = SurfacePanel()
+        self.singularities_panel = SingularitiesPanel(self.workspace, named)
+        self.validity_panel = ValidityPanel(self.workspace)
+        self.layers_panel = LayersPanel(self.workspace)
+        self.export_panel = ExportPanel(named["figure"])
+        self.docks = add_docks(self)
+        self.menus = Menus(self)
+        self.toolbar = make_toolbar(self)
+        self.status = Status(self)
+        self.workspace.changed.connect(self._show_state)
+        self.workspace.opened.connect(self._opened)
+        self.viewport.menu_wanted.connect(self._show_menu)
+        self.centre.empty.chosen.connect(self.files.open)
+        self.centre.empty.open_wanted.connect(self.files.ask_open)
+        self.actions_table.show(self.state)
+
+    @property
+    def state(self) -> WindowState:
+        """What the window shows."""
+        return self.workspace.state
+
+    def show_palette(self) -> None:
+        """Open the command palette."""
+        Palette(self.menus.all_actions(), self).popup()
+
+    def show_about(self) -> None:
+        """Say what this is."""
+        QMessageBox.about(
+            self,
+            "About crossview",
+            f"<b>crossview {crossview.__version__}</b><p>Imposed singularities on a surface, "
+            "and the boundary-aligned cross-field they give.</p><p>BSD-3-Clause</p>",
+        )
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Esc during a drag puts the singularity back."""
+        if event.key() == Qt.Key.Key_Escape:
+            self.viewport.mouse.let_go()
+        super().keyPressEvent(event)
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:
+        """Take files."""
+        if any(url.isLocalFile() for url in event.mimeData().urls()):
+            event.acceptProposedAction()
+
+    def dropEvent(self, event: QDropEvent) -> None:
+        """Open the first dropped file."""
+        for url in event.mimeData().urls():
+            if url.isLocalFile():
+                event.acceptProposedAction()
+                self.files.open(url.toLocalFile())
+                return
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """End the background and free what VTK holds."""
+        self.workspace.close()
+        self.viewport.close_plotter()
+        super().closeEvent(event)
+
+    def _show_state(self, old: WindowState, new: WindowState) -> None:
+        self.centre.show_state(old, new)
+        for panel in (
+            self.surface_panel,
+            self.singularities_panel,
+            self.validity_panel,
+            self.layers_panel,
+            self.status,
+        ):
+            panel.show_state(old, new)
+        self.actions_table.show(new)
+        if old.document is not new.document:
+            name = "" if new.document is None else f"{new.document.name} \u2013 "
+            self.setWindowTitle(f"{name}crossview")
+            if new.document is not None and (
+                old.document is None or old.document.surface is not new.document.surface
+            ):
+                self.viewport.fit()
+
+    def _opened(self, document: Document) -> None:
+        self.files.opened(document)
+        self.menus.show_recent()
+
+    def _show_menu(self, singularity: int | None, place: QPoint) -> None:
+        if singularity is not None:
+            self.workspace.set(selected=singularity)
+            self.singularities_panel.menu().popup(place)
+        elif self.state.document is not None:
+            self.menus.scene_menu().popup(place)

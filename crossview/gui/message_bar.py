@@ -1,0 +1,127 @@
+"""One line over the scene: errors and hints, with details to copy and what to do about it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from PySide6.QtCore import QSize, Qt
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import (
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QPlainTextEdit,
+    QPushButton,
+    QSizePolicy,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from crossview.gui.icons import colored_icon, icon
+from crossview.gui.panels.texts import BAD
+from crossview.gui.state import Message, WindowState
+from crossview.gui.workspace import Workspace
+
+TINTS = {"error": BAD, "warning": "#b7791f", "info": "#2f6fde"}
+MOST_WIDTH, MARGIN = 720, 12
+
+
+class MessageBar(QFrame):
+    """Floats at the top of its parent; not modal; goes when the state's message goes."""
+
+    def __init__(self, workspace: Workspace, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._workspace = workspace
+        self._over = parent
+        self.setObjectName("message-bar")
+        self.setAutoFillBackground(True)
+        self.setBackgroundRole(self.palette().ColorRole.Base)
+        self._icon = QLabel()
+        self.text = QLabel()
+        self.text.setWordWrap(True)
+        self.text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.text.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
+        self.details_button = QPushButton("Details")
+        self.details_button.setCheckable(True)
+        self.details_button.toggled.connect(self._show_details)
+        self.copy_button = QToolButton()
+        self.copy_button.setIcon(icon("copy"))
+        self.copy_button.setToolTip("Copy the details")
+        self.copy_button.setAutoRaise(True)
+        self.copy_button.clicked.connect(self.copy)
+        close = QToolButton()
+        close.setIcon(icon("close"))
+        close.setToolTip("Dismiss")
+        close.setAutoRaise(True)
+        close.clicked.connect(lambda: self._workspace.set(message=None))
+        self.details = QPlainTextEdit()
+        self.details.setReadOnly(True)
+        self.details.setFixedHeight(140)
+        self._buttons = QHBoxLayout()
+        self._buttons.setSpacing(6)
+        self.action_buttons: list[QPushButton] = []
+        line = QHBoxLayout()
+        line.setSpacing(8)
+        line.addWidget(self._icon)
+        line.addWidget(self.text, 1)
+        line.addLayout(self._buttons)
+        line.addWidget(self.details_button)
+        line.addWidget(self.copy_button)
+        line.addWidget(close)
+        self._layout = QVBoxLayout(self)
+        self._layout.setContentsMargins(12, 8, 8, 8)
+        self._layout.addLayout(line)
+        self._layout.addWidget(self.details)
+        self.hide()
+
+    def show_state(self, old: WindowState, new: WindowState) -> None:
+        """Follow the window's state."""
+        if old.message is not new.message:
+            self._show(new.message)
+
+    def place(self) -> None:
+        """Keep to the top of the parent, as wide as it needs to be."""
+        width = min(MOST_WIDTH, self._over.width() - 2 * MARGIN)
+        self.setFixedWidth(width)
+        height = self._layout.totalHeightForWidth(width)
+        self.setFixedHeight(max(height, self.minimumSizeHint().height()))
+        self.move((self._over.width() - width) // 2, MARGIN)
+
+    def copy(self) -> None:
+        """Copy text and details."""
+        text = "\n\n".join(part for part in (self.text.text(), self.details.toPlainText()) if part)
+        QGuiApplication.clipboard().setText(text)
+
+    def _show(self, message: Message | None) -> None:
+        self.setVisible(message is not None)
+        if message is None:
+            return
+        tint = TINTS[message.severity]
+        self.setStyleSheet(
+            f"#message-bar {{ border: 1px solid {tint}; border-left: 4px solid {tint};"
+            " border-radius: 4px; }"
+        )
+        self._icon.setPixmap(colored_icon(message.severity, tint).pixmap(QSize(20, 20)))
+        self.text.setText(message.text)
+        self.details.setPlainText(message.details)
+        self.details_button.setVisible(bool(message.details))
+        self.copy_button.setVisible(bool(message.details))
+        self.details_button.setChecked(False)
+        self._show_details(False)
+        for button in self.action_buttons:
+            self._buttons.removeWidget(button)
+            button.deleteLater()
+        self.action_buttons = [self._action(action.label, action.run) for action in message.actions]
+        self.raise_()
+        self.place()
+
+    def _action(self, label: str, run: Callable[[], None]) -> QPushButton:
+        button = QPushButton(label)
+        button.clicked.connect(lambda: run())
+        self._buttons.addWidget(button)
+        return button
+
+    def _show_details(self, shown: bool) -> None:
+        self.details.setVisible(shown)
+        self.place()

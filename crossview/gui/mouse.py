@@ -1,0 +1,150 @@
+"""What the mouse does in the viewport: place, drag, select, turn the wheel; else the camera."""
+
+from __future__ import annotations
+
+from enum import Enum, auto
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QEvent, QObject, QPointF, Qt
+from PySide6.QtGui import QMouseEvent, QWheelEvent
+
+from crossview.gui.workspace import Workspace
+from solvers.points import SurfacePoint
+
+if TYPE_CHECKING:
+    from crossview.gui.viewport import Viewport
+
+CLICK_REACH = 4.0
+"""Pixels that the mouse may move between press and release of a click."""
+NOTCH = 120
+
+
+class _Grip(Enum):
+    """What a pressed left button holds."""
+
+    NOTHING = auto()
+    CAMERA = auto()
+    SINGULARITY = auto()
+    DRAG = auto()
+
+
+class Mouse(QObject):
+    """Event filter on the plotter's widget.
+
+    A press on a singularity takes hold of it in any mode; it becomes a drag once the mouse has
+    moved as far as a click may not. All that is not taken here goes on to VTK's camera.
+    """
+
+    def __init__(self, viewport: Viewport, workspace: Workspace) -> None:
+        super().__init__(viewport)
+        self._viewport = viewport
+        self._workspace = workspace
+        self._grip = _Grip.NOTHING
+        self._held = -1
+        self._pressed_at = QPointF()
+        self._moved = False
+        self._wheel = 0
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Take an event, or leave it to the camera."""
+        kind = event.type()
+        if kind in (QEvent.Type.KeyPress, QEvent.Type.KeyRelease):
+            event.ignore()  # VTK has keys of its own (q closes); the window's shortcuts are all
+            return True
+        if kind == QEvent.Type.Leave:
+            self._hover(None)
+        if isinstance(event, QWheelEvent):
+            return self._wheeled(event)
+        if isinstance(event, QMouseEvent):
+            return self._mouse(kind, event)
+        return False
+
+    def _mouse(self, kind: QEvent.Type, event: QMouseEvent) -> bool:
+        if kind == QEvent.Type.MouseMove:
+            return self._move(event)
+        if kind in (QEvent.Type.MouseButtonPress, QEvent.Type.MouseButtonDblClick):
+            return self._press(event)
+        if kind == QEvent.Type.MouseButtonRelease:
+            return self._release(event)
+        return False
+
+    def _press(self, event: QMouseEvent) -> bool:
+        self._pressed_at, self._moved = event.position(), False
+        if event.button() == Qt.MouseButton.LeftButton:
+            index = self._viewport.singularity_at(event.position())
+            self._grip = _Grip.CAMERA if index is None else _Grip.SINGULARITY
+            self._held = -1 if index is None else index
+        return self._grip is _Grip.SINGULARITY
+
+    def _move(self, event: QMouseEvent) -> bool:
+        away = (event.position() - self._pressed_at).manhattanLength() >= CLICK_REACH
+        self._moved |= away and bool(event.buttons())
+        if self._grip is _Grip.SINGULARITY and self._moved:
+            started = self._workspace.start_drag(self._held)
+            self._grip = _Grip.DRAG if started else _Grip.CAMERA
+        if self._grip is _Grip.DRAG:
+            pick = self._viewport.pick(event.position())
+            if pick is not None:
+                self._workspace.drag_to(pick.point)
+            return True
+        if not event.buttons():
+            self._hover(event.position())
+        elif self._grip is not _Grip.SINGULARITY:
+            self._viewport.pass_on(event)
+        return True
+
+    def _release(self, event: QMouseEvent) -> bool:
+        grip, self._grip = self._grip, _Grip.NOTHING
+        if event.button() == Qt.MouseButton.RightButton:
+            self._viewport.pass_on(event)
+            if not self._moved:
+                self._viewport.ask_menu(event.position(), event.globalPosition().toPoint())
+            return True
+        if event.button() != Qt.MouseButton.LeftButton:
+            return False
+        if grip is _Grip.DRAG:
+            self._workspace.drop()
+        elif grip is _Grip.SINGULARITY:
+            self._workspace.set(selected=self._held)
+        elif not self._moved:
+            self._viewport.pass_on(event)
+            self._click(event.position())
+        else:
+            return False
+        return True
+
+    def _click(self, place: QPointF) -> None:
+        pick, state = self._viewport.pick(place), self._workspace.state
+        if pick is not None and state.tool is not None:
+            self._workspace.add(pick.point, state.tool)
+        else:
+            self._workspace.set(selected=None)
+
+    def _wheeled(self, event: QWheelEvent) -> bool:
+        index = self._viewport.singularity_at(event.position())
+        if index is None or self._grip is _Grip.DRAG:
+            return self._viewport.pass_on(event)
+        self._wheel += event.angleDelta().y()
+        steps = int(self._wheel / NOTCH)
+        self._wheel -= steps * NOTCH
+        for _ in range(abs(steps)):
+            self._workspace.step_valence(index, 1 if steps > 0 else -1)
+        if steps:
+            self._workspace.set(selected=index)
+        return True
+
+    def _hover(self, place: QPointF | None) -> None:
+        """Read out what is under the mouse and show what a click would do there."""
+        pick = None if place is None else self._viewport.pick(place)
+        self._viewport.hovered.emit(pick)
+        over = None if place is None else self._viewport.singularity_at(place)
+        self._viewport.point_out(over)
+        if self._workspace.state.tool is not None:
+            point: SurfacePoint | None = None if pick is None or over is not None else pick.point
+            self._workspace.preview(point)
+
+    def let_go(self) -> None:
+        """End a drag and put the singularity back (Esc)."""
+        if self._grip is _Grip.DRAG:
+            self._grip = _Grip.NOTHING
+            self._workspace.cancel_drag()

@@ -1,0 +1,17 @@
+"""What stands in the docks: each panel shows a `WindowState` and calls verbs of the workspace."""
+
+from __future__ import annotations
+
+from crossview.gui.panels.export import ExportPanel
+from crossview.gui.panels.layers import LayersPanel
+from crossview.gui.panels.singularities import SingularitiesPanel
+from crossview.gui.panels.surface import SurfacePanel
+from crossview.gui.panels.validity import ValidityPanel
+
+__all__ = [
+    "ExportPanel",
+    "LayersPanel",
+    "SingularitiesPanel",
+    "SurfacePanel",
+    "ValidityPanel",
+]

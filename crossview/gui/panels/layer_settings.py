@@ -1,0 +1,166 @@
+"""The settings of one layer: only those it listens to."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from PySide6.QtCore import QLocale, QSignalBlocker, QSize, Qt
+from PySide6.QtGui import QIcon, QImage, QPixmap
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QComboBox,
+    QDoubleSpinBox,
+    QFormLayout,
+    QHBoxLayout,
+    QSlider,
+    QWidget,
+)
+
+from crossview.gui.workspace import Workspace
+from crossview.scene import LayerKind, LayerSettings
+from crossview.scene.colors import CYCLIC, DIVERGING, color_table
+
+STEPS = 100
+FACTOR = 4.0  # sliders of factors go from 1/FACTOR to FACTOR, 1 in the middle
+
+
+class LayerEditor(QWidget):
+    """Edits the `LayerSettings` of one kind of layer."""
+
+    def __init__(self, kind: LayerKind, workspace: Workspace) -> None:
+        super().__init__()
+        self._name = kind.name
+        self._workspace = workspace
+        self._refresh: list[Callable[[LayerSettings], None]] = []
+        self._form = QFormLayout(self)
+        self._form.setContentsMargins(10, 4, 10, 4)
+        self._form.setVerticalSpacing(6)
+        make = {
+            "opacity": lambda: self._add_slider("Opacity", "opacity", _linear, _from_linear),
+            "size": lambda: self._add_slider("Size", "size", _factor, _from_factor),
+            "density": lambda: self._add_slider("Density", "density", _factor, _from_factor),
+            "color_map": self._add_color_map,
+            "value_range": self._add_range,
+            "uniform": lambda: self._add_check("One size", "uniform"),
+            "edges": lambda: self._add_check("Triangle edges", "edges"),
+        }
+        for setting in kind.settings:
+            make[setting]()
+
+    def show_settings(self, settings: LayerSettings) -> None:
+        """Follow the layer's settings without answering back."""
+        for refresh in self._refresh:
+            refresh(settings)
+
+    def _set(self, **changes: object) -> None:
+        self._workspace.set_layer(self._name, **changes)
+
+    def _add_slider(
+        self,
+        title: str,
+        setting: str,
+        value: Callable[[int], float],
+        step: Callable[[float], int],
+    ) -> None:
+        slider = QSlider(Qt.Orientation.Horizontal)
+        slider.setObjectName(setting)
+        slider.setRange(0, STEPS)
+        slider.valueChanged.connect(lambda at: self._set(**{setting: value(at)}))
+        self._form.addRow(title, slider)
+
+        def refresh(settings: LayerSettings) -> None:
+            with QSignalBlocker(slider):
+                slider.setValue(step(getattr(settings, setting)))
+            slider.setToolTip(f"{getattr(settings, setting):.2f}")
+
+        self._refresh.append(refresh)
+
+    def _add_check(self, title: str, setting: str) -> None:
+        box = QCheckBox(title)
+        box.setObjectName(setting)
+        box.toggled.connect(lambda on: self._set(**{setting: on}))
+        self._form.addRow(box)
+
+        def refresh(settings: LayerSettings) -> None:
+            with QSignalBlocker(box):
+                box.setChecked(getattr(settings, setting))
+
+        self._refresh.append(refresh)
+
+    def _add_color_map(self) -> None:
+        combo = QComboBox()
+        combo.setObjectName("color_map")
+        combo.setIconSize(QSize(56, 12))
+        for name in CYCLIC if self._name == "theta" else DIVERGING:
+            combo.addItem(_gradient(name), name)
+        combo.activated.connect(lambda at: self._set(color_map=combo.itemText(at)))
+        self._form.addRow("Colours", combo)
+
+        def refresh(settings: LayerSettings) -> None:
+            with QSignalBlocker(combo):
+                combo.setCurrentIndex(max(0, combo.findText(settings.color_map)))
+
+        self._refresh.append(refresh)
+
+    def _add_range(self) -> None:
+        auto = QCheckBox("Fit range to data")
+        low, high = _number(-1.0), _number(1.0)
+        pair = QHBoxLayout()
+        pair.setContentsMargins(0, 0, 0, 0)
+        pair.addWidget(low)
+        pair.addWidget(high)
+
+        def changed() -> None:
+            if auto.isChecked():
+                self._set(value_range=None)
+            elif low.value() < high.value():
+                self._set(value_range=(low.value(), high.value()))
+
+        def refresh(settings: LayerSettings) -> None:
+            with QSignalBlocker(auto), QSignalBlocker(low), QSignalBlocker(high):
+                auto.setChecked(settings.value_range is None)
+                low.setEnabled(settings.value_range is not None)
+                high.setEnabled(settings.value_range is not None)
+                if settings.value_range is not None:
+                    low.setValue(settings.value_range[0])
+                    high.setValue(settings.value_range[1])
+
+        auto.toggled.connect(changed)
+        low.valueChanged.connect(changed)
+        high.valueChanged.connect(changed)
+        self._form.addRow(auto)
+        self._form.addRow("Range", pair)
+        self._refresh.append(refresh)
+
+
+def _linear(step: int) -> float:
+    return step / STEPS
+
+
+def _from_linear(value: float) -> int:
+    return round(value * STEPS)
+
+
+def _factor(step: int) -> float:
+    return float(FACTOR ** (2.0 * step / STEPS - 1.0))
+
+
+def _from_factor(value: float) -> int:
+    return round(STEPS * (np.log(value) / np.log(FACTOR) + 1.0) / 2.0)
+
+
+def _number(value: float) -> QDoubleSpinBox:
+    box = QDoubleSpinBox()
+    box.setLocale(QLocale.c())
+    box.setRange(-100.0, 100.0)
+    box.setValue(value)
+    box.setSingleStep(0.1)
+    box.setKeyboardTracking(False)
+    return box
+
+
+def _gradient(name: str) -> QIcon:
+    row = np.ascontiguousarray(np.tile(color_table(name, size=112), (24, 1, 1)))
+    image = QImage(row.data, 112, 24, QImage.Format.Format_RGBA8888)
+    return QIcon(QPixmap.fromImage(image.copy()))

@@ -1,0 +1,71 @@
+"""The Layers panel: an eye per layer and, below, the settings of the selected one."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QSize, Qt
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QFrame,
+    QListWidget,
+    QListWidgetItem,
+    QStackedWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from crossview.gui.icons import icon
+from crossview.gui.panels.layer_settings import LayerEditor
+from crossview.gui.state import WindowState
+from crossview.gui.workspace import Workspace
+from crossview.scene import LAYERS
+
+
+class LayersPanel(QWidget):
+    """List of layers; a click on the eye shows or hides, a click on the name selects."""
+
+    def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._workspace = workspace
+        self.list = QListWidget()
+        self.list.setFrameShape(QFrame.Shape.NoFrame)
+        self.list.setIconSize(QSize(18, 18))
+        self.list.setUniformItemSizes(True)
+        self.list.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
+        self.list.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.settings = QStackedWidget()
+        self.editors: dict[str, LayerEditor] = {}
+        for kind in LAYERS:
+            item = QListWidgetItem(kind.label)
+            item.setSizeHint(QSize(0, 26))
+            self.list.addItem(item)
+            self.editors[kind.name] = LayerEditor(kind, workspace)
+            self.settings.addWidget(self.editors[kind.name])
+        self.list.setFixedHeight(26 * len(LAYERS) + 4)
+        self.list.currentRowChanged.connect(self.settings.setCurrentIndex)
+        self.list.itemPressed.connect(self._pressed)
+        self.list.setCurrentRow(1)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 4, 0, 4)
+        layout.setSpacing(4)
+        layout.addWidget(self.list)
+        layout.addWidget(self.settings, 1)
+        self.show_state(None, workspace.state)
+
+    def show_state(self, old: WindowState | None, new: WindowState) -> None:
+        """Follow the window's state."""
+        if old is not None and old.layers is new.layers:
+            return
+        for row, kind in enumerate(LAYERS):
+            visible = new.layers[kind.name].visible
+            self.list.item(row).setIcon(icon("eye" if visible else "eye-off"))
+            self.editors[kind.name].show_settings(new.layers[kind.name])
+
+    def toggle(self, name: str) -> None:
+        """Show or hide a layer."""
+        visible = self._workspace.state.layers[name].visible
+        self._workspace.set_layer(name, visible=not visible)
+
+    def _pressed(self, item: QListWidgetItem) -> None:
+        place = self.list.viewport().mapFromGlobal(self.list.cursor().pos())
+        if place.x() < 28:
+            self.toggle(LAYERS[self.list.row(item)].name)

@@ -1,0 +1,159 @@
+"""The Singularities panel: the table with add, delete, change of valence and lock."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QSize, Qt
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QFrame,
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QMenu,
+    QSpinBox,
+    QStyledItemDelegate,
+    QStyleOptionViewItem,
+    QTableView,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from crossview.gui.icons import icon
+from crossview.gui.panels.singularity_model import LOCK, POSITION, VALENCE, SingularityModel
+from crossview.gui.state import WindowState
+from crossview.gui.workspace import Workspace
+from crossview.session.commands import MAX_VALENCE, MIN_VALENCE
+
+
+class ValenceDelegate(QStyledItemDelegate):
+    """Edits a valence with a spin box."""
+
+    def createEditor(
+        self,
+        parent: QWidget,
+        option: QStyleOptionViewItem,
+        index: QModelIndex | QPersistentModelIndex,
+    ) -> QWidget:
+        """Return a spin box over the allowed valences."""
+        editor = QSpinBox(parent)
+        editor.setRange(MIN_VALENCE, MAX_VALENCE)
+        editor.setFrame(False)
+        return editor
+
+
+class SingularitiesPanel(QWidget):
+    """Table of the singularities; the selection is shared with the scene."""
+
+    def __init__(
+        self, workspace: Workspace, actions: Mapping[str, QAction], parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self._workspace = workspace
+        self._actions = actions
+        self.model = SingularityModel(workspace)
+        self.table = self._make_table()
+        buttons = QHBoxLayout()
+        buttons.setContentsMargins(8, 0, 8, 0)
+        buttons.setSpacing(2)
+        buttons.addWidget(self._make_add_button())
+        buttons.addWidget(_button(actions["delete"]))
+        buttons.addStretch()
+        for name in ("lower", "raise"):
+            buttons.addWidget(_button(actions[name]))
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 4)
+        layout.setSpacing(4)
+        self.hint = QLabel("None yet. Choose a valence (3 5 6 8) and click on the surface.")
+        self.hint.setWordWrap(True)
+        self.hint.setContentsMargins(10, 8, 10, 8)
+        self.hint.setAlignment(Qt.AlignmentFlag.AlignTop)
+        self.hint.setForegroundRole(self.palette().ColorRole.PlaceholderText)
+        layout.addWidget(self.hint, 1)
+        layout.addWidget(self.table, 1)
+        layout.addLayout(buttons)
+
+        self.show_state(workspace.state, workspace.state)
+
+    def show_state(self, old: WindowState, new: WindowState) -> None:
+        """Follow the window's state."""
+        if old.singularities is not new.singularities or old.document is not new.document:
+            self.model.show_state(new)
+        self.hint.setVisible(not new.singularities)
+        self.table.setVisible(bool(new.singularities))
+        self._select(new.selected)
+
+    def _make_table(self) -> QTableView:
+        table = QTableView()
+        table.setModel(self.model)
+        table.setFrameShape(QFrame.Shape.NoFrame)
+        table.setShowGrid(False)
+        table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+        table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
+        table.setItemDelegateForColumn(VALENCE, ValenceDelegate(table))
+        table.setIconSize(QSize(14, 14))
+        table.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        table.verticalHeader().hide()
+        table.verticalHeader().setDefaultSectionSize(24)
+        header = table.horizontalHeader()
+        header.setHighlightSections(False)
+        header.setMinimumSectionSize(24)
+        header.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
+        header.setSectionResizeMode(POSITION, QHeaderView.ResizeMode.Stretch)
+        for column, width in enumerate((46, 58, 44, 100, 26)):
+            table.setColumnWidth(column, width)
+        table.clicked.connect(self._clicked)
+        table.selectionModel().currentRowChanged.connect(self._current_changed)
+        table.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
+        table.customContextMenuRequested.connect(
+            lambda place: self.menu().popup(table.viewport().mapToGlobal(place))
+        )
+        return table
+
+    def menu(self) -> QMenu:
+        """Return the verbs for the selected singularity, as the scene's right-click offers."""
+        menu = QMenu(self)
+        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        for name in ("raise", "lower", "lock", "delete"):
+            menu.addAction(self._actions[name])
+        return menu
+
+    def _make_add_button(self) -> QToolButton:
+        button = QToolButton()
+        button.setText("Add")
+        button.setIcon(icon("plus"))
+        button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+        button.setAutoRaise(True)
+        button.setToolTip("Choose a valence, then click on the surface")
+        button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        menu = QMenu(button)
+        for name in ("add-3", "add-5", "add-6", "add-8", "add-any"):
+            menu.addAction(self._actions[name])
+        button.setMenu(menu)
+        return button
+
+    def _clicked(self, index: QModelIndex) -> None:
+        if index.column() == LOCK:
+            self._workspace.toggle_lock(index.row())
+
+    def _current_changed(self, current: QModelIndex) -> None:
+        if current.isValid():
+            self._workspace.set(selected=current.row())
+
+    def _select(self, row: int | None) -> None:
+        if row is None:
+            self.table.clearSelection()
+            self.table.setCurrentIndex(QModelIndex())
+        elif self.table.currentIndex().row() != row:
+            self.table.selectRow(row)
+
+
+def _button(action: QAction) -> QToolButton:
+    button = QToolButton()
+    button.setDefaultAction(action)
+    button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonIconOnly)
+    button.setAutoRaise(True)
+    return button

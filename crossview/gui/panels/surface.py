@@ -1,0 +1,82 @@
+"""The Surface panel: what is open, its counts, topology, quality and notes."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QFormLayout, QLabel, QVBoxLayout, QWidget
+
+from crossview.gui.panels.texts import count
+from crossview.gui.state import WindowState
+from crossview.session.document import Document
+from solvers.surface import TriSurface
+
+POOR_QUALITY = 0.1
+
+
+class SurfacePanel(QWidget):
+    """Shows the facts of the document's surface."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.name = QLabel("Nothing open")
+        self.name.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        font = self.name.font()
+        font.setBold(True)
+        self.name.setFont(font)
+        self.counts, self.topology, self.quality = QLabel(), QLabel(), QLabel()
+        self.notes = QLabel()
+        self.notes.setWordWrap(True)
+        form = QFormLayout()
+        form.setContentsMargins(0, 0, 0, 0)
+        form.setVerticalSpacing(4)
+        form.setHorizontalSpacing(8)
+        self._rows = [("Size", self.counts), ("Topology", self.topology), ("Quality", self.quality)]
+        for title, label in self._rows:
+            form.addRow(_faint(title), label)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(8, 8, 8, 8)
+        layout.setSpacing(6)
+        layout.addWidget(self.name)
+        layout.addLayout(form)
+        layout.addWidget(self.notes)
+        layout.addStretch()
+        self._form = form
+        self._show(None)
+
+    def show_state(self, old: WindowState, new: WindowState) -> None:
+        """Follow the window's state."""
+        if old.document is not new.document:
+            self._show(new.document)
+
+    def _show(self, document: Document | None) -> None:
+        for row in range(self._form.rowCount()):
+            self._form.setRowVisible(row, document is not None)
+        self.notes.setVisible(document is not None and bool(document.problem.notes))
+        if document is None:
+            self.name.setText("Nothing open")
+            return
+        surface = document.surface
+        self.name.setText(document.name)
+        self.counts.setText(
+            f"{count(surface.n_vertices, 'vertex', 'vertices')}\n"
+            f"{count(surface.n_faces, 'triangle')}"
+        )
+        self.topology.setText(_topology(surface))
+        worst, mean = float(surface.triangle_quality.min()), float(surface.triangle_quality.mean())
+        poor = int((surface.triangle_quality < POOR_QUALITY).sum())
+        text = f"mean {mean:.2f}, worst {worst:.2g}"
+        self.quality.setText(text + (f"\n{count(poor, 'poor triangle')}" if poor else ""))
+        self.quality.setToolTip("1 is an equilateral triangle, 0 a degenerate one")
+        self.notes.setText("\n".join(document.problem.notes))
+
+
+def _topology(surface: TriSurface) -> str:
+    loops = len(surface.boundary_loops)
+    edge = "closed" if loops == 0 else count(loops, "boundary", "boundaries")
+    return f"genus {surface.genus}, {edge}"
+
+
+def _faint(text: str) -> QLabel:
+    label = QLabel(text)
+    label.setForegroundRole(label.palette().ColorRole.PlaceholderText)
+    return label

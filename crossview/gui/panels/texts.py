@@ -1,0 +1,49 @@
+"""Numbers and words as the panels show them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+GOOD = "#2f9e5b"
+BAD = "#d93a3a"
+WAITING = "#a9adb5"
+THIN_SPACE = "\u2009"
+MINUS = "\u2212"
+
+
+def count(number: int, noun: str, plural: str = "") -> str:
+    """Return "1 face", "2 304 faces"."""
+    word = noun if number == 1 else plural or noun + "s"
+    return f"{grouped(number)} {word}"
+
+
+def grouped(number: int) -> str:
+    """Return an integer with thin spaces between groups of three digits."""
+    return f"{number:,}".replace(",", THIN_SPACE)
+
+
+def signed(number: float, digits: int = 0) -> str:
+    """Return "+1", "0" or "−2" with a true minus."""
+    text = f"{number:+.{digits}f}"
+    if float(text) == 0.0:
+        return f"{0:.{digits}f}"
+    return text.replace("-", MINUS)
+
+
+def degrees(value: float) -> str:
+    """Return an angle in degrees with the digits that matter near zero."""
+    if abs(value) < 5e-4:
+        return "0°"
+    digits = 3 if abs(value) < 0.1 else 2 if abs(value) < 10.0 else 1
+    return signed(value, digits).lstrip("+") + "°"
+
+
+def position(coordinates: Sequence[float]) -> str:
+    """Return "0.31, −0.22, 1.00"."""
+    return ", ".join(f"{x:.3g}".replace("-", MINUS) if abs(x) >= 5e-4 else "0" for x in coordinates)
+
+
+def hover(H: float | None, triangle: int) -> str:
+    """Return the status bar's read-out of what is under the mouse."""
+    text = f"triangle {grouped(triangle)}"
+    return text if H is None else f"H = {H:.3f}   {text}".replace("-", MINUS)

@@ -1,0 +1,179 @@
+"""The Validity panel: the index budget and one row per holonomy condition, always current."""
+
+from __future__ import annotations
+
+import numpy as np
+from PySide6.QtCore import QEvent, QSize, Qt, Signal
+from PySide6.QtGui import QEnterEvent
+from PySide6.QtWidgets import (
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QScrollArea,
+    QSizePolicy,
+    QVBoxLayout,
+    QWidget,
+)
+
+from crossview.gui.icons import dot_icon
+from crossview.gui.panels.texts import BAD, GOOD, WAITING, degrees, signed
+from crossview.gui.state import WindowState
+from crossview.gui.workspace import Workspace
+from crossview.session.mending import Mending, mendings
+
+DOT = QSize(14, 14)
+
+
+class Verdict(QFrame):
+    """A dot, what it is about, and a value at the right."""
+
+    hovered = Signal(bool)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._dot, self.text, self.value = QLabel(), QLabel(), QLabel()
+        self.value.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+        self.text.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self.color = ""
+        layout = QHBoxLayout(self)
+        layout.setContentsMargins(8, 3, 8, 3)
+        layout.setSpacing(8)
+        layout.addWidget(self._dot)
+        layout.addWidget(self.text, 1)
+        layout.addWidget(self.value)
+
+    def show_verdict(self, color: str, text: str, value: str) -> None:
+        """Show a coloured dot, a text and a value."""
+        if color != self.color:
+            self.color = color
+            self._dot.setPixmap(dot_icon(color).pixmap(DOT))
+        self.text.setText(text)
+        self.text.setToolTip(text)
+        self.value.setText(value)
+
+    def enterEvent(self, event: QEnterEvent) -> None:
+        """Tell that the mouse is here."""
+        self.setBackgroundRole(self.palette().ColorRole.AlternateBase)
+        self.setAutoFillBackground(True)
+        self.hovered.emit(True)
+        super().enterEvent(event)
+
+    def leaveEvent(self, event: QEvent) -> None:
+        """Tell that the mouse has gone."""
+        self.setAutoFillBackground(False)
+        self.hovered.emit(False)
+        super().leaveEvent(event)
+
+
+class ValidityPanel(QWidget):
+    """Says whether the configuration is valid, by how much not, and what would mend it."""
+
+    def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._workspace = workspace
+        self.budget = Verdict()
+        font = self.budget.text.font()
+        font.setBold(True)
+        self.budget.text.setFont(font)
+        self.note = QLabel()
+        self.note.setWordWrap(True)
+        self.note.setContentsMargins(30, 0, 8, 4)
+        self.note.setForegroundRole(self.palette().ColorRole.PlaceholderText)
+        self._offers = QVBoxLayout()
+        self._offers.setContentsMargins(30, 0, 8, 6)
+        self._offers.setSpacing(4)
+        self.buttons: list[QPushButton] = []
+        self.rows: list[Verdict] = []
+        self._list = QWidget()
+        self._row_layout = QVBoxLayout(self._list)
+        self._row_layout.setContentsMargins(0, 0, 0, 0)
+        self._row_layout.setSpacing(0)
+        self._row_layout.addStretch()
+        scroll = QScrollArea()
+        scroll.setFrameShape(QFrame.Shape.NoFrame)
+        scroll.setWidgetResizable(True)
+        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        scroll.setWidget(self._list)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 4, 0, 4)
+        layout.setSpacing(0)
+        layout.addWidget(self.budget)
+        layout.addWidget(self.note)
+        layout.addLayout(self._offers)
+        layout.addWidget(scroll, 1)
+        self.show_state(None, workspace.state)
+
+    def show_state(self, old: WindowState | None, new: WindowState) -> None:
+        """Follow the window's state."""
+        seen = ("document", "trial", "field", "base")
+        if old is not None and all(getattr(old, name) is getattr(new, name) for name in seen):
+            return
+        self._show_budget(new)
+        if old is None or old.document is not new.document:
+            offers = () if new.document is None else mendings(new.document)
+            self._show_offers(offers)
+        self._show_conditions(new)
+
+    def _show_budget(self, state: WindowState) -> None:
+        budget = state.budget
+        if budget is None:
+            self.budget.show_verdict(WAITING, "Open a surface to begin", "")
+            self.note.hide()
+            return
+        self.budget.show_verdict(
+            GOOD if budget.satisfied else BAD,
+            f"Index sum {signed(budget.index_sum).lstrip('+')}"
+            f" of {signed(budget.required).lstrip('+')}",
+            ""
+            if budget.satisfied
+            else f"{signed(budget.missing)} missing"
+            if budget.missing > 0
+            else f"{signed(-budget.missing)} too many",
+        )
+        previewing = state.trial is not None and not state.trial.drag
+        text = "if placed here" if previewing else ""
+        if not budget.satisfied and not previewing:
+            text = "No field until the indices add up."
+        self.note.setText(text)
+        self.note.setVisible(bool(text))
+
+    def _show_offers(self, offers: tuple[Mending, ...]) -> None:
+        for button in self.buttons:
+            self._offers.removeWidget(button)
+            button.deleteLater()
+        self.buttons = []
+        for offer in offers:
+            button = QPushButton(offer.label)
+            button.clicked.connect(lambda _=False, offer=offer: self._workspace.mend(offer))
+            self._offers.addWidget(button)
+            self.buttons.append(button)
+
+    def _show_conditions(self, state: WindowState) -> None:
+        labels: tuple[str, ...] = ()
+        if state.base is not None:
+            labels = tuple(c.label for c in state.base.solver.holonomy.conditions)
+        self._make_rows(len(labels))
+        defects = state.defects
+        for i, (row, label) in enumerate(zip(self.rows, labels, strict=True)):
+            if defects is None:
+                row.show_verdict(WAITING, label, "")
+                continue
+            defect = float(np.degrees(defects[i]))
+            good = abs(defect) < state.tolerance
+            row.show_verdict(GOOD if good else BAD, label, degrees(defect))
+
+    def _make_rows(self, count: int) -> None:
+        while len(self.rows) > count:
+            row = self.rows.pop()
+            self._row_layout.removeWidget(row)
+            row.deleteLater()
+        while len(self.rows) < count:
+            row, number = Verdict(), len(self.rows)
+            row.hovered.connect(
+                lambda inside, number=number: self._workspace.set(
+                    condition=number if inside else None
+                )
+            )
+            self._row_layout.insertWidget(number, row)
+            self.rows.append(row)

@@ -1,0 +1,122 @@
+"""From a place in the viewport to a point of the surface, by a ray of our own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pyvista as pv
+from numpy.typing import NDArray
+from vtkmodules.vtkCommonCore import mutable
+from vtkmodules.vtkCommonDataModel import vtkStaticCellLocator
+from vtkmodules.vtkRenderingCore import vtkRenderer
+
+from solvers.points import SurfacePoint
+from solvers.surface import TriSurface
+
+Place = tuple[float, float]
+"""Device pixels from the lower left, as VTK counts."""
+
+
+@dataclass(frozen=True)
+class Pick:
+    """Where a ray meets the surface first.
+
+    Parameters
+    ----------
+    point : SurfacePoint
+    position : (3,) float
+        The same in space.
+    """
+
+    point: SurfacePoint
+    position: tuple[float, float, float]
+
+
+class Picker:
+    """Casts rays on one surface; a plain cell picker would take a thousand times as long."""
+
+    def __init__(self, renderer: vtkRenderer) -> None:
+        self._renderer = renderer
+        self._surface: TriSurface | None = None
+        self._locator: vtkStaticCellLocator | None = None
+
+    def aim(self, surface: TriSurface | None) -> None:
+        """Pick on `surface` from now on; its locator is built when first asked."""
+        if surface is not self._surface:
+            self._surface = surface
+            self._locator = None
+
+    def pick(self, place: Place) -> Pick | None:
+        """Return what the ray through `place` hits first."""
+        if self._surface is None:
+            return None
+        near, far = self._ray(place)
+        t, hit, corners = mutable(0.0), [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
+        sub_cell, face = mutable(0), mutable(-1)
+        locator = self._built(self._surface)
+        if not locator.IntersectWithLine(near, far, 0.0, t, hit, corners, sub_cell, face):
+            return None
+        r, s = min(max(corners[0], 0.0), 1.0), min(max(corners[1], 0.0), 1.0)
+        point = SurfacePoint(int(face), (max(1.0 - r - s, 0.0), r, min(s, 1.0 - r)))
+        return Pick(point, (hit[0], hit[1], hit[2]))
+
+    def nearest(
+        self, place: Place, positions: NDArray[np.float64], radius: float, reach: float
+    ) -> int | None:
+        """Return which of `positions` is drawn under `place`.
+
+        Parameters
+        ----------
+        place : Place
+        positions : (k, 3) float
+            Centres of discs on the surface.
+        radius : float
+            Of the discs, in space.
+        reach : float
+            Device pixels around a centre that count in any case.
+        """
+        best: tuple[float, int] | None = None
+        for index, position in enumerate(positions):
+            centre = self._display(position)
+            rim = self._display(position + radius * self._sideways())
+            distance = float(np.hypot(centre[0] - place[0], centre[1] - place[1]))
+            size = float(np.hypot(rim[0] - centre[0], rim[1] - centre[1]))
+            near_enough = distance <= max(size, reach) and (best is None or distance < best[0])
+            if near_enough and self._visible(position, centre, radius):
+                best = (distance, index)
+        return None if best is None else best[1]
+
+    def _visible(self, position: NDArray[np.float64], centre: Place, radius: float) -> bool:
+        pick = self.pick(centre)
+        return pick is None or float(np.linalg.norm(position - pick.position)) <= 2.0 * radius
+
+    def _sideways(self) -> NDArray[np.float64]:
+        """Return the unit vector to the right of the picture."""
+        camera = self._renderer.GetActiveCamera()
+        right = np.cross(camera.GetDirectionOfProjection(), camera.GetViewUp())
+        return right / np.linalg.norm(right)
+
+    def _display(self, position: NDArray[np.float64]) -> Place:
+        self._renderer.SetWorldPoint(*position, 1.0)
+        self._renderer.WorldToDisplay()
+        x, y, _ = self._renderer.GetDisplayPoint()
+        return x, y
+
+    def _ray(self, place: Place) -> tuple[list[float], list[float]]:
+        ends = []
+        for depth in (0.0, 1.0):
+            self._renderer.SetDisplayPoint(*place, depth)
+            self._renderer.DisplayToWorld()
+            x, y, z, w = self._renderer.GetWorldPoint()
+            ends.append([x / w, y / w, z / w])
+        return ends[0], ends[1]
+
+    def _built(self, surface: TriSurface) -> vtkStaticCellLocator:
+        if self._locator is None:
+            self._locator = vtkStaticCellLocator()
+            self._locator.SetDataSet(
+                pv.PolyData.from_regular_faces(surface.vertices, surface.faces)
+            )
+            self._locator.BuildLocator()
+        return self._locator

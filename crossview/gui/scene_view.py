@@ -1,0 +1,72 @@
+"""From the window's state to what the scene shows: a pure function."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from crossview.gui.state import WindowState
+from crossview.scene import LayerSettings, Marker, SceneView
+from solvers.surface import TriSurface
+from solvers.triangulation import FloatArray, IntArray
+
+Range = tuple[float, float]
+
+
+def scene_view(state: WindowState, held_range: Range | None = None) -> SceneView:
+    """Return what to draw.
+
+    Parameters
+    ----------
+    state : WindowState
+    held_range : (float, float), optional
+        Colour range to keep, so that colours do not jump while something is dragged.
+    """
+    surface, document = state.shown_surface, state.document
+    if surface is None or document is None:
+        return SceneView(layers=state.layers)
+    field = state.field if state.field is not None and state.field.surface is surface else None
+    positions = document.surface.positions([s.point for s in state.singularities])
+    markers = tuple(
+        Marker(_triple(position), s.valence, selected=i == state.selected, locked=s.locked)
+        for i, (s, position) in enumerate(zip(state.singularities, positions, strict=True))
+    )
+    return SceneView(
+        surface.vertices,
+        surface.faces,
+        H=None if field is None else field.H,
+        u=None if field is None else field.u,
+        v=None if field is None else field.v,
+        singularities=markers,
+        preview=_preview(state, surface),
+        cut_graph=None if field is None else state.cut_graph,
+        loop=_loop(state),
+        title=document.source.title or document.name,
+        layers=_layers(state.layers, held_range),
+    )
+
+
+def _preview(state: WindowState, surface: TriSurface) -> Marker | None:
+    trial = state.trial
+    if trial is None or trial.drag:
+        return None
+    return Marker(_triple(surface.position(trial.placed)), trial.singularities[-1].valence)
+
+
+def _loop(state: WindowState) -> IntArray | None:
+    if state.base is None or state.condition is None:
+        return None
+    return state.base.solver.holonomy.conditions[state.condition].path
+
+
+def _layers(
+    layers: Mapping[str, LayerSettings], held_range: Range | None
+) -> Mapping[str, LayerSettings]:
+    if held_range is None or layers["H"].value_range is not None:
+        return layers
+    return {**layers, "H": replace(layers["H"], value_range=held_range)}
+
+
+def _triple(position: FloatArray) -> tuple[float, float, float]:
+    x, y, z = position
+    return float(x), float(y), float(z)

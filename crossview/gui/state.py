@@ -1,0 +1,172 @@
+"""Everything the window shows, as one frozen value."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from crossview.pipeline import Solution
+from crossview.scene import LayerSettings, default_layers
+from crossview.session.document import Document
+from crossview.session.live import LiveBase, LiveEdit
+from solvers.crossfield import CrossField
+from solvers.points import SurfacePoint
+from solvers.progress import Progress
+from solvers.singularities import IndexBudget, Singularity, index_budget
+from solvers.surface import TriSurface
+
+
+@dataclass(frozen=True, eq=False)
+class MessageAction:
+    """A button of the message bar: what to do about it."""
+
+    label: str
+    run: Callable[[], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Message:
+    """One line over the scene.
+
+    Parameters
+    ----------
+    text : str
+        What, where and what to do.
+    cause : str
+        What the message is about; it goes when that succeeds ("open", "solve", "edit", ...).
+    severity : {"error", "warning", "info"}
+    details : str
+        More to read and copy; may be empty.
+    actions : tuple of MessageAction
+    error : Exception or None
+        Offending elements to point out come from here.
+    """
+
+    text: str
+    cause: str
+    severity: str = "error"
+    details: str = ""
+    actions: tuple[MessageAction, ...] = ()
+    error: Exception | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """Something that would happen: a singularity under the mouse, dragged or not yet placed.
+
+    Parameters
+    ----------
+    singularities : tuple of Singularity
+        On the document's surface, with the change made.
+    index : int
+        Which of them it is about.
+    placed : SurfacePoint
+        The same one on the surface that is shown.
+    edit : LiveEdit or None
+        The same on the kept factor, where there is one.
+    drag : bool
+        Whether it is dragged (else it only previews a click of the add tool).
+    """
+
+    singularities: tuple[Singularity, ...]
+    index: int
+    placed: SurfacePoint
+    edit: LiveEdit | None
+    drag: bool
+
+
+@dataclass(frozen=True, eq=False)
+class WindowState:
+    """What the window shows. See the properties for what follows from it.
+
+    Parameters
+    ----------
+    document : Document or None
+        None: nothing is open.
+    base : LiveBase or None
+        The factored surface that edits are tried on.
+    solution : Solution or None
+        The last finished one, whose document may have moved on.
+    field : CrossField or None
+        What is drawn: of `solution`, or of a drag.
+    cut_graph : (k, 2) int array or None
+        Vertex pairs, of the field of `solution`; only computed while its layer is visible.
+    tool : int or None
+        Valence that the add tool carries; None: the select tool.
+    any_valence : int
+        What the tool "any valence" carries.
+    selected : int or None
+        Number of the selected singularity.
+    condition : int or None
+        Number of the holonomy condition whose loop is pointed out.
+    trial : Trial or None
+    layers : mapping of str to LayerSettings
+    message : Message or None
+    progress : Progress or None
+        What the background is doing; None: nothing.
+    undo_name, redo_name : str or None
+    """
+
+    document: Document | None = None
+    base: LiveBase | None = None
+    solution: Solution | None = None
+    field: CrossField | None = None
+    cut_graph: NDArray[np.int64] | None = None
+    tool: int | None = None
+    any_valence: int = 7
+    selected: int | None = None
+    condition: int | None = None
+    trial: Trial | None = None
+    layers: Mapping[str, LayerSettings] = dataclasses.field(default_factory=default_layers)
+    message: Message | None = None
+    progress: Progress | None = None
+    undo_name: str | None = None
+    redo_name: str | None = None
+
+    @property
+    def singularities(self) -> tuple[Singularity, ...]:
+        """The singularities on the document's surface, a drag included."""
+        if self.trial is not None and self.trial.drag:
+            return self.trial.singularities
+        return () if self.document is None else self.document.singularities
+
+    @property
+    def shown_surface(self) -> TriSurface | None:
+        """The surface that is drawn and picked on: the kept refined one where there is one."""
+        if self.base is not None:
+            return self.base.surface
+        return None if self.document is None else self.document.surface
+
+    @property
+    def budget(self) -> IndexBudget | None:
+        """The index budget, with what the trial would change."""
+        if self.document is None:
+            return None
+        if self.trial is None or self.trial.drag:
+            return self.document.budget
+        return index_budget(self.document.surface, self.trial.singularities, self.document.corners)
+
+    @property
+    def defects(self) -> NDArray[np.float64] | None:
+        """Holonomy defects in radians, with the trial; None while they have no meaning."""
+        budget = self.budget
+        if budget is None or not budget.satisfied:
+            return None
+        if self.trial is not None:
+            return None if self.trial.edit is None else self.trial.edit.defects()
+        return None if self.field is None else self.field.defects
+
+    @property
+    def tolerance(self) -> float:
+        """Largest defect called valid, degrees."""
+        options = None if self.document is None else self.document.problem.options
+        return 0.01 if options is None else options.tolerance_degrees
+
+    def with_layer(self, name: str, **changes: object) -> WindowState:
+        """Return the state with settings of one layer changed."""
+        layers = {**self.layers, name: replace(self.layers[name], **changes)}  # type: ignore[arg-type]
+        return replace(self, layers=layers)

@@ -1,0 +1,81 @@
+"""The status bar: what is under the mouse, what the background does, how long a frame takes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from PySide6.QtCore import QTimer
+from PySide6.QtWidgets import QLabel, QProgressBar, QToolButton
+
+from crossview.gui.panels.texts import hover
+from crossview.gui.picking import Pick
+from crossview.gui.state import WindowState
+from solvers.progress import Progress
+
+if TYPE_CHECKING:
+    from crossview.gui.main_window import MainWindow
+
+PATIENCE_MS = 250
+
+
+class Status:
+    """Fills the status bar of a window."""
+
+    def __init__(self, window: MainWindow) -> None:
+        self._window = window
+        self.hover, self.stage, self.frame = QLabel(), QLabel(), QLabel()
+        self.bar = QProgressBar()
+        self.bar.setRange(0, 100)
+        self.bar.setTextVisible(False)
+        self.bar.setFixedSize(140, 10)
+        self.stop = QToolButton()
+        self.stop.setDefaultAction(window.actions_table.by_name["stop"])
+        self.stop.setAutoRaise(True)
+        self.frame.setMinimumWidth(90)
+        status = window.statusBar()
+        status.setSizeGripEnabled(False)
+        status.addWidget(self.hover, 1)
+        for widget in (self.stage, self.bar, self.stop, self.frame):
+            status.addPermanentWidget(widget)
+        # work that ends at once shows nothing: a bar that flickers says less than none
+        self._patience = QTimer(window)
+        self._patience.setSingleShot(True)
+        self._patience.setInterval(PATIENCE_MS)
+        self._patience.timeout.connect(lambda: self._show_bar(True))
+        self._show_bar(False)
+        window.viewport.hovered.connect(self._show_hover)
+        window.viewport.frame_drawn.connect(self._show_frame)
+
+    def show_state(self, old: WindowState, new: WindowState) -> None:
+        """Follow the window's state."""
+        if old.progress is not new.progress:
+            self._show_progress(new.progress)
+
+    def _show_progress(self, progress: Progress | None) -> None:
+        if progress is None:
+            self._patience.stop()
+            self._show_bar(False)
+            return
+        self.stage.setText(progress.stage)
+        self.bar.setValue(round(100 * progress.fraction))
+        if not self._patience.isActive() and self.bar.isHidden():
+            self._patience.start()
+
+    def _show_bar(self, shown: bool) -> None:
+        for widget in (self.stage, self.bar, self.stop):
+            widget.setVisible(shown)
+
+    def _show_hover(self, pick: Pick | None) -> None:
+        field = self._window.state.field
+        if pick is None:
+            self.hover.setText("")
+            return
+        height = None
+        if field is not None and field.surface is self._window.state.shown_surface:
+            corners = field.H[field.surface.faces[pick.point.face]]
+            height = float(np.dot(corners, pick.point.barycentric))
+        self.hover.setText(hover(height, pick.point.face))
+
+    def _show_frame(self, milliseconds: float) -> None:
+        self.frame.setText(f"{milliseconds:.0f} ms/frame")

@@ -1,0 +1,177 @@
+"""The 3D view: a held plotter, the scene, picking. Only this file knows the plotter's ways.
+
+1. The QtInteractor is held, never subclassed, never told to render: `plotter.render()` draws at
+   once and then once more when Qt paints. `update()` draws once, and many calls make one frame.
+2. For the same reason VTK's own render on each camera move is off while it handles events.
+3. Widget pixels are not device pixels: `_place` is the one conversion.
+4. Its keys (q closes), its drops and its timer are switched off.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from PySide6.QtCore import QEvent, QPoint, QPointF, Qt, QTimer, Signal
+from PySide6.QtGui import QMouseEvent, QWheelEvent
+from PySide6.QtWidgets import QVBoxLayout, QWidget
+from pyvistaqt import QtInteractor
+
+from crossview.export.figures import render_view
+from crossview.gui.figure_settings import FigureSettings
+from crossview.gui.mouse import Mouse
+from crossview.gui.picking import Pick, Picker, Place
+from crossview.gui.scene_view import scene_view
+from crossview.gui.state import WindowState
+from crossview.gui.workspace import Workspace
+from crossview.scene import Scene, software_renderer
+from crossview.scene.singularities import marker_radius
+
+LATE_MS = 80
+"""How long a dragged singularity waits to be drawn together with its field."""
+REACH = 7.0
+"""Pixels around a singularity that count as on it."""
+
+
+class Viewport(QWidget):
+    """Shows the state as a scene and turns the mouse into verbs of the workspace."""
+
+    hovered = Signal(object)
+    """Pick under the mouse, or None."""
+    menu_wanted = Signal(object, QPoint)
+    """Singularity number or None, and where on the screen."""
+    frame_drawn = Signal(float)
+    """Milliseconds that a frame took."""
+
+    def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._workspace = workspace
+        samples = 1 if software_renderer() else 4
+        self.plotter = QtInteractor(self, auto_update=False, multi_samples=samples)
+        self.plotter.setAcceptDrops(False)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(self.plotter)
+        self.scene = Scene(self.plotter, self.devicePixelRatioF())
+        self.picker = Picker(self.plotter.renderer)
+        self.mouse = Mouse(self, workspace)
+        self.plotter.installEventFilter(self.mouse)
+        self._held_range: tuple[float, float] | None = None
+        self._started = 0.0
+        self._late = QTimer(self)
+        self._late.setSingleShot(True)
+        self._late.setInterval(LATE_MS)
+        self._late.timeout.connect(self._draw)
+        window = self.plotter.render_window
+        self._observers = [
+            window.AddObserver("StartEvent", self._frame_started),
+            window.AddObserver("EndEvent", self._frame_ended),
+        ]
+
+    def show_state(self, old: WindowState, new: WindowState) -> None:
+        """Follow the window's state."""
+        dragging = new.trial is not None and new.trial.drag
+        if not dragging:
+            self._held_range = None
+        elif self._held_range is None:
+            self._held_range = self.scene.h_range
+        self.picker.aim(new.shown_surface)
+        # One frame for the dot and its field, unless the field takes too long: frames cost more.
+        if dragging and new.field is not None and new.field is old.field:
+            if not self._late.isActive():
+                self._late.start()
+            return
+        self._late.stop()
+        self._draw()
+
+    def _draw(self) -> None:
+        if self.scene.show(scene_view(self._workspace.state, self._held_range)):
+            self.plotter.update()
+
+    def fit(self) -> None:
+        """Show the whole surface from a good side."""
+        self.look_from("auto")
+
+    def look_from(self, camera: str) -> None:
+        """Look from one of the scene's preset directions."""
+        self.scene.fit(camera)
+        self.plotter.update()
+
+    def export(self, path: Path, settings: FigureSettings) -> None:
+        """Write what is shown, seen from here, as a PNG."""
+        view = scene_view(self._workspace.state)
+        view = replace(
+            view,
+            preview=None,
+            singularities=tuple(replace(m, selected=False) for m in view.singularities),
+            background="transparent" if settings.transparent else view.background,
+        )
+        camera = self.scene.camera
+        render_view(view, path, size=settings.size, scale=settings.scale, camera=camera)
+
+    def pick(self, place: QPointF) -> Pick | None:
+        """Return the point of the surface under a place of the widget."""
+        return self.picker.pick(self._place(place))
+
+    def singularity_at(self, place: QPointF) -> int | None:
+        """Return the number of the singularity under a place of the widget."""
+        state = self._workspace.state
+        document = state.document
+        if document is None or not state.singularities or not state.layers["singularities"].visible:
+            return None
+        positions = np.asarray(document.surface.positions([s.point for s in state.singularities]))
+        markers = scene_view(state).singularities
+        size = state.layers["singularities"].size
+        radius = marker_radius(markers, document.surface.diagonal, size)
+        reach = REACH * self.devicePixelRatioF()
+        return self.picker.nearest(self._place(place), positions, radius, reach)
+
+    def point_out(self, singularity: int | None) -> None:
+        """Show by the cursor that something can be taken hold of."""
+        hand = Qt.CursorShape.PointingHandCursor
+        tool = self._workspace.state.tool
+        plain = Qt.CursorShape.ArrowCursor if tool is None else Qt.CursorShape.CrossCursor
+        self.plotter.setCursor(plain if singularity is None else hand)
+
+    def ask_menu(self, place: QPointF, global_place: QPoint) -> None:
+        """Ask for the menu of what is under a place."""
+        self.menu_wanted.emit(self.singularity_at(place), global_place)
+
+    def pass_on(self, event: QEvent) -> bool:
+        """Hand an event to VTK's camera without its extra frame; say that it is dealt with."""
+        interactor = self.plotter.iren.interactor
+        interactor.EnableRenderOff()
+        try:
+            if isinstance(event, QWheelEvent):
+                self.plotter.wheelEvent(event)
+            elif isinstance(event, QMouseEvent):
+                handlers = {
+                    QEvent.Type.MouseMove: self.plotter.mouseMoveEvent,
+                    QEvent.Type.MouseButtonRelease: self.plotter.mouseReleaseEvent,
+                }
+                handlers[event.type()](event)
+        finally:
+            interactor.EnableRenderOn()
+        self.plotter.update()
+        return True
+
+    def close_plotter(self) -> None:
+        """Free what VTK holds; the widget draws no more."""
+        self._late.stop()
+        self.plotter.removeEventFilter(self.mouse)
+        for tag in self._observers:
+            self.plotter.render_window.RemoveObserver(tag)
+        self.scene.remove()
+        self.plotter.close()
+
+    def _place(self, place: QPointF) -> Place:
+        ratio = self.plotter.devicePixelRatioF()
+        return place.x() * ratio, (self.plotter.height() - 1.0 - place.y()) * ratio
+
+    def _frame_started(self, *_: object) -> None:
+        self._started = time.perf_counter()
+
+    def _frame_ended(self, *_: object) -> None:
+        self.frame_drawn.emit(1000.0 * (time.perf_counter() - self._started))
