@@ -107,9 +107,6 @@ def gallery(
     quiet
         Show neither progress nor summary.
     """
-    from crossview.export.figures import render as draw
-    from crossview.export.report import summary, write_files
-
     paths = {name: cases.path_of(name) for name in names or cases.names()}
     if list_:
         for name in paths:
@@ -117,6 +114,8 @@ def gallery(
         return
     if output is None:
         raise CrossviewError("no folder for the results", "", "name one with -o, or --list")
+    from crossview.export.figures import render as draw
+    from crossview.export.report import summary, write_files
 
     def work(name: str, directory: Path) -> Generator[Progress, None, Solution]:
         (solution,) = yield from solve_case(chosen_case(str(paths[name])))

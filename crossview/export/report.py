@@ -71,7 +71,7 @@ def summary(solution: Solution) -> str:
     off = int((defects >= tolerance).sum())
     return (
         f"not valid: {budget}, {off} of {defects.size} holonomy defects not below {tolerance:g} "
-        f"degrees, the worst {defects.max():.3f} degrees {worst.label}"
+        f"degrees, the worst {defects.max():.3f} degrees ({worst.label})"
     )
 
 
