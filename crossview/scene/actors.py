@@ -12,6 +12,7 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkMapper, vtkPolyDataMapper
 
 from crossview.scene.colors import rgb
 from crossview.scene.geometry import FloatArray, IntArray
+from crossview.scene.style import TOWARDS
 
 
 class MeshActor:
@@ -21,13 +22,11 @@ class MeshActor:
     ----------
     plotter : pyvista plotter
     name : str
-        Of the actor, unique on the plotter.
-    towards : float
-        How far the actor is drawn in front of where it is, in 1/65 536 of the depth seen: lines
-        on a surface are not to fight with it.
+        Of the actor, unique on the plotter; a key of `style.TOWARDS`.
     """
 
-    def __init__(self, plotter: pv.BasePlotter, name: str, towards: float = 0.0) -> None:
+    def __init__(self, plotter: pv.BasePlotter, name: str) -> None:
+        towards = TOWARDS[name]
         self._plotter = plotter
         self.mesh = pv.PolyData()
         self.mapper = vtkPolyDataMapper()

@@ -9,6 +9,7 @@ from crossview.scene.actors import MeshActor
 from crossview.scene.colors import CROSS
 from crossview.scene.geometry import FloatArray, Triangles
 from crossview.scene.sampling import spread_sites
+from crossview.scene.style import WIDTH
 from crossview.scene.view import SceneView
 from crossview.scene.watch import Watch
 
@@ -18,17 +19,16 @@ _NUMBER, _NUMBER_PLANAR = 2200, 1400
 _ARM = 0.38
 # exp(H) is shown within these factors of the middling size, so that all stay readable.
 _SMALLEST, _LARGEST = 0.3, 1.75
-_LINE_WIDTH = 1.25
 
 
 class CrossesLayer:
     """Lines from -u to u and from -v to v about each place."""
 
     def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float) -> None:
-        self._actor = MeshActor(plotter, "crosses", towards=30.0)
+        self._actor = MeshActor(plotter, "crosses")
         self._actor.flat()
         self._actor.color(CROSS)
-        self._actor.property.SetLineWidth(_LINE_WIDTH * pixel_ratio)
+        self._actor.property.SetLineWidth(WIDTH["crosses"] * pixel_ratio)
         self._watch = Watch()
         self._glyphs: CrossGlyphs | None = None
 

@@ -8,11 +8,10 @@ import pyvista as pv
 from crossview.scene.actors import MeshActor
 from crossview.scene.colors import CUT, CUT_HALO, LOOP, THEMES
 from crossview.scene.geometry import Triangles, dashes
+from crossview.scene.style import WIDTH
 from crossview.scene.view import SceneView
 from crossview.scene.watch import Watch
 
-_BOUNDARY_WIDTH, _CUT_WIDTH, _LOOP_WIDTH = 2.5, 2.75, 5.0
-_CUT_HALO = 2.0
 # Dash and gap of the cut graph, in diagonals of the surface.
 CUT_DASH, CUT_GAP = 0.012, 0.008
 
@@ -21,7 +20,7 @@ class BoundaryLayer:
     """The edges of one triangle only, in the theme's ink."""
 
     def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float) -> None:
-        self._actor = MeshActor(plotter, "boundary", towards=80.0)
+        self._actor = MeshActor(plotter, "boundary")
         self._actor.flat()
         self._pixel_ratio = pixel_ratio
         self._watch = Watch()
@@ -32,7 +31,7 @@ class BoundaryLayer:
             self._actor.replace(triangles.points, lines=triangles.boundary_edges)
         settings = view.layer("boundary")
         self._actor.color(THEMES[view.background].ink)
-        self._actor.property.SetLineWidth(_BOUNDARY_WIDTH * settings.size * self._pixel_ratio)
+        self._actor.property.SetLineWidth(WIDTH["boundary"] * settings.size * self._pixel_ratio)
         self._actor.visible = settings.visible and triangles is not None
 
     def remove(self) -> None:
@@ -44,8 +43,8 @@ class CutLayer:
     """The cut graph in blue dashes with a light rim, to be seen on every colour."""
 
     def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float) -> None:
-        self._halo = MeshActor(plotter, "cut halo", towards=90.0)
-        self._dashes = MeshActor(plotter, "cut", towards=100.0)
+        self._halo = MeshActor(plotter, "cut halo")
+        self._dashes = MeshActor(plotter, "cut")
         for actor, color in ((self._halo, CUT_HALO), (self._dashes, CUT)):
             actor.flat()
             actor.color(color)
@@ -66,10 +65,9 @@ class CutLayer:
             ends, lines = dashes(triangles.points, edges, *lengths)
             for actor in actors:
                 actor.replace(ends, lines=lines)
-        for actor, extra in zip(actors, (_CUT_HALO, 0.0), strict=True):
+        for actor, name in zip(actors, ("cut halo", "cut"), strict=True):
             actor.property.SetOpacity(settings.opacity)
-            width = (_CUT_WIDTH + extra) * settings.size
-            actor.property.SetLineWidth(width * self._pixel_ratio)
+            actor.property.SetLineWidth(WIDTH[name] * settings.size * self._pixel_ratio)
             actor.visible = True
 
     def remove(self) -> None:
@@ -82,10 +80,10 @@ class LoopLayer:
     """A path along vertices, thick, for as long as something points at it."""
 
     def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float) -> None:
-        self._actor = MeshActor(plotter, "loop", towards=120.0)
+        self._actor = MeshActor(plotter, "loop")
         self._actor.flat()
         self._actor.color(LOOP)
-        self._actor.property.SetLineWidth(_LOOP_WIDTH * pixel_ratio)
+        self._actor.property.SetLineWidth(WIDTH["loop"] * pixel_ratio)
         self._watch = Watch()
 
     def show(self, view: SceneView, triangles: Triangles | None) -> None:

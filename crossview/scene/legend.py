@@ -13,12 +13,16 @@ from crossview.scene.view import SceneView
 from crossview.scene.watch import Watch
 
 MARGIN = 18.0
-TEXT_SIZE = 13.0
+TEXT_SIZE, TITLE_SIZE = 13.0, 15.0
 # The colour bar in pixels; its texts stand to the left of it.
 BAR_WIDTH, BAR_HEIGHT, BAR_COLORS = 14.0, 170.0, 128
+BAR_GAP, BAR_TITLE = 7.0, 16.0
+BAR_TITLES = {"H": "H", "theta": "θ", "": ""}
 # Room that the colour bar and the legend need on the right and at the bottom.
 BAR_ROOM, LEGEND_ROOM = 96.0, 46.0
-_DISC, _STEP = 6.5, 46.0
+# Height of the legend's line and of the colour bar's foot.
+FOOT = MARGIN + 4.0
+DISC, _FIRST, _STEP = 6.5, 74.0, 46.0
 
 
 class TitleLayer:
@@ -26,13 +30,13 @@ class TitleLayer:
 
     def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float) -> None:
         self._ratio = pixel_ratio
-        self._label = Label(plotter, (0.0, 1.0), 15.0 * pixel_ratio, "left")
+        self._label = Label(plotter, (0.0, 1.0), TITLE_SIZE * pixel_ratio, "left")
         self._watch = Watch()
 
     def show(self, view: SceneView, triangles: Triangles | None) -> None:
         """Apply what changed."""
         if self._watch.changed("title", view.title, view.background):
-            offset = (MARGIN * self._ratio, -(MARGIN + 4.0) * self._ratio)
+            offset = (MARGIN * self._ratio, -FOOT * self._ratio)
             self._label.show(view.title, offset, THEMES[view.background].text)
 
     def remove(self) -> None:
@@ -64,23 +68,27 @@ class ValenceLegendLayer:
             label.remove()
 
     def _draw(self, valences: list[int], color: str) -> None:
-        texts = ["valence", *map(str, valences)] if valences else []
-        while len(self._labels) < len(texts):
+        words, discs_at = legend_layout(valences)
+        while len(self._labels) < len(words):
             self._labels.append(Label(self._plotter, (0.0, 0.0), TEXT_SIZE * self._ratio, "left"))
-        y = (MARGIN + 4.0) * self._ratio
-        starts = [MARGIN, *(MARGIN + 74.0 + _STEP * np.arange(len(valences)))]
-        gaps = [0.0, *(_DISC + 7.0 for _ in valences)]
-        for i, label in enumerate(self._labels):
-            if i < len(texts):
-                label.show(texts[i], ((starts[i] + gaps[i]) * self._ratio, y), color)
-            else:
-                label.show("", (0.0, 0.0), color)
+        spare = [("", 0.0)] * (len(self._labels) - len(words))
+        for label, (text, x) in zip(self._labels, words + spare, strict=True):
+            label.show(text, (x * self._ratio, FOOT * self._ratio), color)
         if not valences:
             self._patches.hide()
             return
-        centres = np.array([[x * self._ratio, y] for x in starts[1:]])
-        points, cells = discs(centres, _DISC * self._ratio)
+        centres = np.array([[x, FOOT] for x in discs_at])
+        points, cells = discs(self._ratio * centres, DISC * self._ratio)
         self._patches.show(points, cells, bytes_of([valence_color(n) for n in valences]))
+
+
+def legend_layout(valences: list[int]) -> tuple[list[tuple[str, float]], list[float]]:
+    """Return the words of the legend with where they start, and where its discs are, in pixels."""
+    if not valences:
+        return [], []
+    at = [MARGIN + _FIRST + _STEP * i for i in range(len(valences))]
+    words = [(str(n), x + DISC + 7.0) for n, x in zip(valences, at, strict=True)]
+    return [("valence", MARGIN), *words], at
 
 
 class ColorBarLayer:
@@ -104,10 +112,10 @@ class ColorBarLayer:
             return
         color = THEMES[view.background].text
         texts = bar_texts(shown, limits) if shown else [""] * 5
-        self._title.show(bar_title(shown), self._at(0.5, BAR_HEIGHT + 16.0), color)
+        self._title.show(BAR_TITLES[shown], self._at(0.5, BAR_HEIGHT + BAR_TITLE), color)
         for i, (label, text) in enumerate(zip(self._ticks, texts, strict=True)):
             x, y = self._at(0.0, BAR_HEIGHT * i / 4.0)
-            label.show(text, (x - 7.0 * self._ratio, y), color)
+            label.show(text, (x - BAR_GAP * self._ratio, y), color)
         if shown:
             self._bar(color_table(name, settings.opacity, BAR_COLORS)[:, :3])
         else:
@@ -122,7 +130,7 @@ class ColorBarLayer:
     def _at(self, across: float, up: float) -> tuple[float, float]:
         """Pixels from the corner: `across` in widths of the bar, `up` from its foot."""
         x = -MARGIN - BAR_WIDTH * (1.0 - across)
-        return x * self._ratio, (MARGIN + 4.0 + up) * self._ratio
+        return x * self._ratio, (FOOT + up) * self._ratio
 
     def _bar(self, colors: IntArray) -> None:
         n = len(colors)
@@ -132,11 +140,6 @@ class ColorBarLayer:
         i = np.arange(n)
         cells = np.stack([i, n + 1 + i, n + 2 + i, i + 1], axis=1)
         self._patches.show(np.vstack([left, right]), cells, colors)
-
-
-def bar_title(shown: str) -> str:
-    """Return what the colour bar says above itself."""
-    return {"H": "H", "theta": "θ", "": ""}[shown]
 
 
 def bar_texts(shown: str, limits: tuple[float, float]) -> list[str]:

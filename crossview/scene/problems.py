@@ -8,6 +8,7 @@ import pyvista as pv
 from crossview.scene.actors import MeshActor
 from crossview.scene.colors import PROBLEM
 from crossview.scene.geometry import FloatArray, IntArray, Triangles
+from crossview.scene.style import WIDTH
 from crossview.scene.view import Elements, SceneView
 from crossview.scene.watch import Watch
 
@@ -16,10 +17,10 @@ class ProblemLayer:
     """Faces filled, edges and outlines of faces as lines, vertices as dots."""
 
     def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float) -> None:
-        self._faces = MeshActor(plotter, "problem faces", towards=150.0)
-        self._lines = MeshActor(plotter, "problem lines", towards=600.0)
-        self._dots = MeshActor(plotter, "problem dots", towards=900.0)
-        self._lines.property.SetLineWidth(3.0 * pixel_ratio)
+        self._faces = MeshActor(plotter, "problem faces")
+        self._lines = MeshActor(plotter, "problem lines")
+        self._dots = MeshActor(plotter, "problem dots")
+        self._lines.property.SetLineWidth(WIDTH["problem"] * pixel_ratio)
         self._dots.property.SetPointSize(9.0 * pixel_ratio)
         self._dots.property.RenderPointsAsSpheresOn()
         for actor in self._all():

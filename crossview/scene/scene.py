@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Protocol
+
 import numpy as np
 import pyvista as pv
 
@@ -28,6 +30,18 @@ from crossview.scene.watch import Watch
 _KEY_LIGHT = 0.6
 
 
+class Layer(Protocol):
+    """A part of the picture that keeps itself equal to the last view shown."""
+
+    def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float) -> None: ...
+
+    def show(self, view: SceneView, triangles: Triangles | None) -> None:
+        """Apply what changed."""
+
+    def remove(self) -> None:
+        """Take it off the plotter."""
+
+
 class Scene:
     """Shows views on a plotter.
 
@@ -37,9 +51,13 @@ class Scene:
         Empty; its lights and background become the scene's.
     pixel_ratio : float
         Device pixels per pixel: widths of lines and sizes of texts are multiplied by it.
+    texts : bool
+        Whether title, legend, colour bar and axes are drawn; their room is kept anyway.
     """
 
-    def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float = 1.0) -> None:
+    def __init__(
+        self, plotter: pv.BasePlotter, pixel_ratio: float = 1.0, texts: bool = True
+    ) -> None:
         self._plotter = plotter
         self._ratio = pixel_ratio
         self._watch = Watch()
@@ -49,19 +67,21 @@ class Scene:
         # VTK blends in no order by default, which leaves specks under multi-sampling.
         plotter.renderer.SetUseOIT(False)
         self._surface = SurfaceLayer(plotter, pixel_ratio)
-        self._bar = ColorBarLayer(plotter, pixel_ratio)
-        kinds = (
+        self._bar = ColorBarLayer(plotter, pixel_ratio) if texts else None
+        kinds: tuple[type[Layer], ...] = (
             CrossesLayer,
             BoundaryLayer,
             CutLayer,
             LoopLayer,
             SingularitiesLayer,
             ProblemLayer,
-            TitleLayer,
-            ValenceLegendLayer,
-            AxesLayer,
         )
-        self._layers = (self._surface, *(kind(plotter, pixel_ratio) for kind in kinds))
+        if texts:
+            kinds += (TitleLayer, ValenceLegendLayer, AxesLayer)
+        self._layers: tuple[Layer, ...] = (
+            self._surface,
+            *(kind(plotter, pixel_ratio) for kind in kinds),
+        )
         self.show(self._view)
 
     @property
@@ -85,7 +105,8 @@ class Scene:
             self._plotter.renderer.SetBackground(*rgb(THEMES[view.background].background))
         for layer in self._layers:
             layer.show(view, self._triangles)
-        self._bar.show_range(view, self.h_range)
+        if self._bar is not None:
+            self._bar.show_range(view, self.h_range)
         self._view = view
         return True
 
@@ -113,8 +134,10 @@ class Scene:
 
     def remove(self) -> None:
         """Take everything off the plotter."""
-        for layer in (*self._layers, self._bar):
+        for layer in self._layers:
             layer.remove()
+        if self._bar is not None:
+            self._bar.remove()
 
     def _room(self) -> Room:
         width, height = self._plotter.window_size

@@ -18,10 +18,10 @@ from crossview.scene.watch import Watch
 # Radius of a singularity in diagonals of the surface, and at most in distances to its neighbour.
 _RADIUS, _CROWDED = 0.014, 0.42
 _RIM = "#16181c"
+# A disc is a rim, a light ring and the colour: radii as shares of its own, and paints.
+DISC_PARTS, DISC_PAINTS = (1.0, 0.92, 0.76), (_RIM, "#ffffff")
 _RING_SIZE = 1.75
 _PREVIEW_OPACITY = 0.6
-# Towards the eye, past the surface that a ball would sink into when seen from the side.
-_TOWARDS = 1200.0
 
 # A ball painted by how far its normal leans from the eye: a disc in every view, of the right
 # size and hidden by what is before it.
@@ -50,8 +50,8 @@ _RING = (
 class _Balls:
     """Any number of balls of one shader in one dataset."""
 
-    def __init__(self, plotter: pv.BasePlotter, name: str, towards: float, shader: str) -> None:
-        self._actor = MeshActor(plotter, name, towards=towards)
+    def __init__(self, plotter: pv.BasePlotter, name: str, shader: str) -> None:
+        self._actor = MeshActor(plotter, name)
         code = shader.format(rim=", ".join(f"{part:.4f}" for part in rgb(_RIM)))
         self._actor.actor.GetShaderProperty().AddFragmentShaderReplacement(
             "//VTK::Light::Impl", True, code, False
@@ -88,9 +88,9 @@ class SingularitiesLayer:
     """The singularities in the colours of their valences, and a ring about the selected."""
 
     def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float) -> None:
-        self._discs = _Balls(plotter, "singularities", _TOWARDS, _DISC)
-        self._rings = _Balls(plotter, "selection", _TOWARDS, _RING)
-        self._preview = _Balls(plotter, "preview", _TOWARDS + 300.0, _DISC)
+        self._discs = _Balls(plotter, "singularities", _DISC)
+        self._rings = _Balls(plotter, "selection", _RING)
+        self._preview = _Balls(plotter, "preview", _DISC)
         self._preview.property.SetOpacity(_PREVIEW_OPACITY)
         self._watch = Watch()
 

@@ -12,6 +12,7 @@ from crossview.scene.actors import MeshActor
 from crossview.scene.colors import SURFACE, color_table, rgb
 from crossview.scene.field import cross_angle
 from crossview.scene.geometry import FloatArray, IntArray, Triangles
+from crossview.scene.style import WIDTH
 from crossview.scene.view import SceneView
 from crossview.scene.watch import Watch
 
@@ -58,7 +59,7 @@ class SurfaceLayer:
         if self._watch.changed("style", settings):
             self._actor.property.SetOpacity(settings.opacity)
             self._actor.property.SetEdgeVisibility(settings.edges)
-            self._actor.property.SetLineWidth(self._pixel_ratio)
+            self._actor.property.SetLineWidth(WIDTH["edges"] * self._pixel_ratio)
 
     def remove(self) -> None:
         """Take the surface off the plotter."""

@@ -1,0 +1,158 @@
+"""Views as images, off screen and smooth without a graphics card."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+import pyvista as pv
+from PIL import Image
+from scipy.ndimage import maximum_filter
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkFloatArray
+
+from crossview.scene import Camera, Scene, SceneView, ensure_rendering
+from crossview.scene.geometry import FloatArray
+from solvers.errors import CrossviewError
+
+# A picture of this height, in pixels, has texts and lines of the window's size.
+_NOMINAL_HEIGHT = 640.0
+# Each pixel is the mean of this many squared, as long as the whole stays below the limit.
+_SUPERSAMPLING, _MOST_PIXELS, _LONGEST_SIDE = 2, 40e6, 16384
+# Also makes wide lines end square, whatever their direction.
+_MULTI_SAMPLES = 4
+
+
+class FigureError(CrossviewError):
+    """A figure that cannot be made as asked."""
+
+
+def picture(
+    view: SceneView,
+    size: tuple[int, int],
+    scale: float,
+    camera: str | Camera,
+    texts: bool = True,
+) -> Image.Image:
+    """Draw a view to an image of `size` times `scale` pixels.
+
+    Parameters
+    ----------
+    view, size, scale, camera
+        As of `figures.render_view`.
+    texts : bool
+        Whether title, legend, colour bar and axes are drawn.
+
+    Raises
+    ------
+    FigureError
+        The size cannot be drawn.
+    """
+    width, height = (round(side * scale) for side in size)
+    fine = _supersampling(width, height)
+    ratio = fine * scale * pixel_ratio(size)
+    with _staged_scene(fine * width, fine * height, ratio, texts) as (plotter, scene):
+        plotter.ren_win.SetMultiSamples(_MULTI_SAMPLES)
+        scene.show(view)
+        scene.fit(camera)
+        pixels = plotter.screenshot(
+            return_img=True, transparent_background=view.background == "transparent"
+        )
+    image = Image.fromarray(pixels)
+    # Means of colours count by their opacity, else rims of a transparent figure turn white.
+    if image.mode == "RGBA":
+        return image.convert("RGBa").reduce(fine).convert("RGBA")
+    return image.reduce(fine)
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """Where things are in a picture, and which of them the surface hides.
+
+    Attributes
+    ----------
+    size : (int, int)
+        Pixels.
+    matrix : (4, 4) float
+        From space to the cube of half size 1 that is seen.
+    depth : (height, width) float
+        Of the surface: 0 near to 1 far and where nothing is; the bottom row first.
+    h_range : (float, float)
+        Limits of the colours of H.
+    """
+
+    size: tuple[int, int]
+    matrix: npt.NDArray[np.float64]
+    depth: npt.NDArray[np.float32]
+    h_range: tuple[float, float]
+
+    def project(self, points: FloatArray) -> FloatArray:
+        """Return (..., 3): pixels to the right and up from the bottom left, and depth."""
+        homogeneous = np.concatenate([points, np.ones((*points.shape[:-1], 1))], axis=-1)
+        clip = homogeneous @ self.matrix.T
+        cube = (clip[..., :3] / clip[..., 3:] + 1.0) / 2.0
+        return cube * np.array([*self.size, 1.0])
+
+    def visible(self, projected: FloatArray, towards: float) -> npt.NDArray[np.bool_]:
+        """Return whether projected points (..., 3) are before the surface, or behind by less.
+
+        `towards` is in 1/65 536 of the depth seen, as that of the scene's actors.
+        """
+        width, height = self.size
+        x = np.clip(projected[..., 0].astype(int), 0, width - 1)
+        y = np.clip(projected[..., 1].astype(int), 0, height - 1)
+        return np.asarray(projected[..., 2] <= self.depth[y, x] + towards / 65536.0)
+
+
+def seen(view: SceneView, size: tuple[int, int], camera: str | Camera) -> Seen:
+    """Look at a view; parameters as of `figures.render_view`."""
+    with _staged_scene(*size, pixel_ratio(size), True) as (plotter, scene):
+        plotter.ren_win.SetMultiSamples(1)
+        scene.show(view)
+        scene.fit(camera)
+        plotter.screenshot(return_img=True)
+        values = vtkFloatArray()
+        plotter.ren_win.GetZbufferData(0, 0, size[0] - 1, size[1] - 1, values)
+        depth = vtk_to_numpy(values).reshape(size[1], size[0])
+        # The farthest of the pixels around: lines on a slanted surface are not to sink into it.
+        depth = maximum_filter(depth, size=3)
+        seen_with = plotter.renderer.GetActiveCamera()
+        matrix = seen_with.GetCompositeProjectionTransformMatrix(size[0] / size[1], -1.0, 1.0)
+        rows = [[matrix.GetElement(i, j) for j in range(4)] for i in range(4)]
+        return Seen(size, np.array(rows), depth, scene.h_range)
+
+
+def pixel_ratio(size: tuple[int, int]) -> float:
+    """Return the pixels of a figure per pixel of the window, for texts and lines."""
+    width, height = size
+    return min(0.75 * width, height) / _NOMINAL_HEIGHT
+
+
+@contextmanager
+def _staged_scene(
+    width: int, height: int, ratio: float, texts: bool
+) -> Iterator[tuple[pv.Plotter, Scene]]:
+    if min(width, height) < 16 or max(width, height) > _LONGEST_SIDE:
+        raise FigureError(
+            f"cannot draw {width} x {height} pixels",
+            "size times scale",
+            f"choose sides from 16 to {_LONGEST_SIDE}",
+        )
+    ensure_rendering()
+    plotter = pv.Plotter(off_screen=True, window_size=(width, height), lighting="none")
+    try:
+        yield plotter, Scene(plotter, ratio, texts)
+    finally:
+        plotter.close()
+
+
+def _supersampling(width: int, height: int) -> int:
+    fine = _SUPERSAMPLING
+    while fine > 1 and (
+        fine * max(width, height) > _LONGEST_SIDE or fine**2 * width * height > _MOST_PIXELS
+    ):
+        fine -= 1
+    return fine

@@ -1,0 +1,30 @@
+"""Widths of lines, and what lies before what."""
+
+from __future__ import annotations
+
+# Pixels of the window.
+WIDTH = {
+    "edges": 1.0,
+    "crosses": 1.25,
+    "boundary": 2.5,
+    "cut": 2.75,
+    "cut halo": 4.75,
+    "loop": 5.0,
+    "problem": 3.0,
+}
+# How far each is drawn towards the eye from where it is, in 1/65 536 of the depth seen: lines do
+# not fight with the surface they lie on, and discs do not sink into it when seen from the side.
+TOWARDS = {
+    "surface": 0.0,
+    "crosses": 30.0,
+    "boundary": 80.0,
+    "cut halo": 90.0,
+    "cut": 100.0,
+    "loop": 120.0,
+    "problem faces": 150.0,
+    "problem lines": 600.0,
+    "problem dots": 900.0,
+    "singularities": 1200.0,
+    "selection": 1200.0,
+    "preview": 1500.0,
+}
