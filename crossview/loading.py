@@ -23,7 +23,11 @@ def load_surfaces(case: Case) -> tuple[Repaired, ...]:
         It cannot be read or is none, or has several components and the case chooses none.
     """
     if isinstance(case.surface, Builtin):
-        return (Repaired(BUILTIN[case.surface.name](**case.surface.parameters)),)
+        name, parameters = case.surface.name, case.surface.parameters
+        try:
+            return (Repaired(BUILTIN[name](**parameters)),)
+        except SurfaceError as error:
+            raise _explained(error, f"built-in {name}") from error
     return mended(read_surface(case.surface), case)
 
 
@@ -48,9 +52,9 @@ def mended(raw: RawSurface, case: Case) -> tuple[Repaired, ...]:
     return tuple(Repaired(piece.surface, (*raw.notes, *piece.notes)) for piece in pieces)
 
 
-def _explained(error: SurfaceError, path: str) -> SurfaceError:
+def _explained(error: SurfaceError, source: str) -> SurfaceError:
     """The same error with the file it is about and the option that mends it."""
-    where = f"{path}, {error.where}" if error.where else path
+    where = f"{source}, {error.where}" if error.where else source
     remedy = error.remedy
     for start, option in OPTIONS.items():
         if remedy.startswith(start):

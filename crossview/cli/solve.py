@@ -55,7 +55,7 @@ def solve(
     elif not quiet:
         for solution in solutions:
             say(summary(solution))
-        say(f"wrote {output}")
+        say(f"wrote {Path(output)}")
 
 
 def _solved_into(directory: Path, case: Case) -> Generator[Progress, None, tuple[Solution, ...]]:

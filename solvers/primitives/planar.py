@@ -46,8 +46,12 @@ def planar(
         When a polygon crosses itself or another, or a gap is too narrow for the edge length.
     """
     h = positive("edge_length", edge_length)
+    if not isinstance(holes, Sequence):
+        raise SurfaceError(f"holes must be a list of polygons, not {holes!r}")
+    if not hasattr(holes, "__len__"):
+        raise SurfaceError("holes must be a list of polygons")
     rings = [_ring(outer, 1.0), *(_ring(hole, -1.0) for hole in holes)]
-    affordable(_area(rings[0]) / (0.866 * h * h))
+    affordable(_area(rings[0]) / h / h)
     loops = [_divide(ring, h) for ring in rings]
     points, faces = fill(loops, _lattice(loops, h))
     return TriSurface(np.column_stack([points, np.zeros(len(points))]), faces)
