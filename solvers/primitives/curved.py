@@ -72,8 +72,9 @@ def cylinder(radius: float = 1.0, height: float = 2.0, n: int = 64) -> TriSurfac
     """Return an open cylinder about the z axis with n vertices on each circle."""
     n = whole("n", n, 3)
     radius, height = positive("radius", radius), positive("height", height)
-    rows = max(round(height / (math.sqrt(0.75) * 2 * math.pi * radius / n)), 1) + 1
-    affordable(rows * n)
+    wanted = height / (math.sqrt(0.75) * 2 * math.pi * radius) * n
+    affordable(wanted * n)
+    rows = max(round(wanted), 1) + 1
     faces, angle = rings(n, rows)
     z = np.repeat(height * (np.arange(rows) / (rows - 1) - 0.5), n)
     vertices = np.column_stack([radius * np.cos(angle.ravel()), radius * np.sin(angle.ravel()), z])
@@ -146,7 +147,7 @@ def _torus_pattern(major: float, minor: float, n: int) -> tuple[FloatArray, IntA
     n = whole("n", n, 3)
     if positive("minor", minor) >= positive("major", major):
         raise SurfaceError(f"minor radius {minor:g} is not below the major radius {major:g}")
-    period = 2 * math.pi * minor / math.sqrt(major**2 - minor**2)
+    period = 2 * math.pi * minor / math.sqrt((major - minor) * (major + minor))
     rows = max(2 * round(0.5 * period / (math.sqrt(0.75) * 2 * math.pi / n)), 4)
     affordable(rows * n)
     faces, angle = rings(n, rows, closed=True)
@@ -159,7 +160,7 @@ def _on_torus(plane: FloatArray, major: float, minor: float) -> FloatArray:
 
     The tube's coordinate is the integral of minor d(phi) / (major + minor cos(phi)).
     """
-    along = np.tan(0.5 * plane[:, 1] * math.sqrt(major**2 - minor**2) / minor)
+    along = np.tan(0.5 * plane[:, 1] * math.sqrt((major - minor) * (major + minor)) / minor)
     phi = 2 * np.arctan(math.sqrt((major + minor) / (major - minor)) * along)
     r = major + minor * np.cos(phi)
     return np.column_stack([r * np.cos(plane[:, 0]), r * np.sin(plane[:, 0]), minor * np.sin(phi)])

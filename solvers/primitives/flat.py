@@ -40,8 +40,9 @@ def disk(radius: float = 1.0, edge_length: float = 0.05) -> TriSurface:
     Its vertices lie on circles round(radius / edge_length) in number.
     """
     radius = positive("radius", radius)
-    n = max(round(radius / positive("edge_length", edge_length)), 1)
-    affordable(3.0 * n * n)
+    wanted = radius / positive("edge_length", edge_length)
+    affordable(3.0 * wanted * wanted)
+    n = max(round(wanted), 1)
     faces, ring, angle = hexagon(n)
     r = radius * (ring / n)
     return TriSurface(_raised(r * np.cos(angle), r * np.sin(angle)), faces)
@@ -57,7 +58,9 @@ def annulus(inner: float = 0.4, outer: float = 1.0, n: int = 96) -> TriSurface:
     inner, outer = positive("inner", inner), positive("outer", outer)
     if inner >= outer:
         raise SurfaceError(f"inner radius {inner:g} is not below the outer radius {outer:g}")
-    rows = max(round(math.log(outer / inner) / (math.sqrt(0.75) * 2 * math.pi / n)), 1) + 1
+    rows = (
+        max(round((math.log(outer) - math.log(inner)) / (math.sqrt(0.75) * 2 * math.pi / n)), 1) + 1
+    )
     affordable(rows * n)
     faces, angle = rings(n, rows)
     # from the outer circle inwards, for the normal to point upwards
@@ -95,7 +98,9 @@ def plate_with_holes(
     half = 0.5 * holes * spacing
     corners = np.array([[-half, -1], [half, -1], [half, 1], [-half, 1]])
     corners[:, 1] *= 0.5 * spacing
-    around = max(round(2 * math.pi * radius / positive("edge_length", edge_length)), 12)
+    sides = 2 * math.pi * radius / positive("edge_length", edge_length)
+    affordable(sides * sides)
+    around = max(round(sides), 12)
     angle = np.arange(around) * (2 * math.pi / around)
     circle = radius * np.column_stack([np.cos(angle), np.sin(angle)])
     centres = spacing * (np.arange(holes) - 0.5 * (holes - 1))
