@@ -15,6 +15,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkFloatArray
 
 from crossview.scene import Camera, Scene, SceneView, ensure_rendering
+from crossview.scene.camera import rows
 from crossview.scene.geometry import FloatArray
 from solvers.errors import CrossviewError
 
@@ -78,6 +79,8 @@ class Seen:
         Pixels.
     matrix : (4, 4) float
         From space to the cube of half size 1 that is seen.
+    turn : (3, 3) float
+        From space to right, up and towards the eye.
     depth : (height, width) float
         Of the surface: 0 near to 1 far and where nothing is; the bottom row first.
     h_range : (float, float)
@@ -85,7 +88,8 @@ class Seen:
     """
 
     size: tuple[int, int]
-    matrix: npt.NDArray[np.float64]
+    matrix: FloatArray
+    turn: FloatArray
     depth: npt.NDArray[np.float32]
     h_range: tuple[float, float]
 
@@ -121,8 +125,8 @@ def seen(view: SceneView, size: tuple[int, int], camera: str | Camera) -> Seen:
         depth = maximum_filter(depth, size=3)
         seen_with = plotter.renderer.GetActiveCamera()
         matrix = seen_with.GetCompositeProjectionTransformMatrix(size[0] / size[1], -1.0, 1.0)
-        rows = [[matrix.GetElement(i, j) for j in range(4)] for i in range(4)]
-        return Seen(size, np.array(rows), depth, scene.h_range)
+        turn = rows(seen_with.GetViewTransformMatrix())[:3, :3]
+        return Seen(size, rows(matrix), turn, depth, scene.h_range)
 
 
 def pixel_ratio(size: tuple[int, int]) -> float:

@@ -101,6 +101,18 @@ class Sheet:
                 for part, color in zip(parts, colors[i], strict=True):
                     self._disc((at[i, 0], at[i, 1]), part * pixels[i], color)
 
+    def stroke(self, ends: FloatArray, color: str, width: float) -> None:
+        """Draw lines (k, 2, 2) on the sheet, in pixels of the window from the bottom left."""
+        self._axes.add_collection(
+            LineCollection(
+                list(ends * self._ratio),
+                colors=color,
+                linewidths=width * self._points,
+                zorder=self._next(),
+            ),
+            autolim=False,
+        )
+
     def dot(self, at: Point, radius: float, color: str) -> None:
         """Draw a disc on the sheet, in pixels of the window from the bottom left."""
         x, y = at

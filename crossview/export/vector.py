@@ -16,9 +16,9 @@ from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
-from crossview.export.raster import picture, pixel_ratio, seen
+from crossview.export.raster import Seen, picture, pixel_ratio, seen
 from crossview.export.sheet import Sheet
-from crossview.scene import LAYERS, Camera, SceneView, legend
+from crossview.scene import LAYERS, Camera, SceneView, axes, legend
 from crossview.scene.colors import CROSS, CUT, CUT_HALO, LOOP, THEMES, color_table, valence_color
 from crossview.scene.crosses import CrossGlyphs
 from crossview.scene.curves import CUT_DASH, CUT_GAP
@@ -47,16 +47,17 @@ def save_vector(
     with matplotlib.rc_context(_SETTINGS):
         figure = Figure(figsize=(size[0] / _DPI, size[1] / _DPI), dpi=_DPI * scale)
         figure.patch.set_alpha(0.0)
-        axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
-        axes.set_axis_off()
-        axes.imshow(image, extent=(0, size[0], 0, size[1]), interpolation="none", aspect="auto")
-        axes.set(xlim=(0, size[0]), ylim=(0, size[1]))
-        sheet = Sheet(axes, eye, pixel_ratio(size), _DPI)
+        paper = figure.add_axes((0.0, 0.0, 1.0, 1.0))
+        paper.set_axis_off()
+        paper.imshow(image, extent=(0, size[0], 0, size[1]), interpolation="none", aspect="auto")
+        paper.set(xlim=(0, size[0]), ylim=(0, size[1]))
+        sheet = Sheet(paper, eye, pixel_ratio(size), _DPI)
         if view.points is not None and view.faces is not None:
             triangles = Triangles(view.points, view.faces)
             _draw_crosses(sheet, view, triangles)
             _draw_curves(sheet, view, triangles)
             _draw_singularities(sheet, view, triangles)
+            _draw_axes(sheet, view, eye)
         _write_legend(sheet, view, size[1] / pixel_ratio(size))
         _draw_bar(sheet, view, size[0] / pixel_ratio(size), eye.h_range)
         if path.suffix.lower() == ".svg":
@@ -110,6 +111,17 @@ def _draw_singularities(sheet: Sheet, view: SceneView, triangles: Triangles) -> 
         centres = np.array([m.position for m in view.singularities], float)
         colors = [(*DISC_PAINTS, valence_color(m.valence)) for m in view.singularities]
         sheet.discs(centres, radius, TOWARDS["singularities"], colors, DISC_PARTS)
+
+
+def _draw_axes(sheet: Sheet, view: SceneView, eye: Seen) -> None:
+    if view.layer("axes").visible:
+        faint = THEMES[view.background].faint
+        corner = np.array(eye.size) / pixel_ratio(eye.size)
+        lines, names = axes.axes_layout(eye.turn)
+        sheet.stroke(corner + lines, faint, axes.LINE_WIDTH)
+        for name, x, y in names:
+            at = (float(corner[0] + x), float(corner[1] + y))
+            sheet.word(name, at, faint, "center", axes.TEXT_SIZE)
 
 
 def _write_legend(sheet: Sheet, view: SceneView, top: float) -> None:

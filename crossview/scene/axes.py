@@ -5,12 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pyvista as pv
 
+from crossview.scene.camera import rows
 from crossview.scene.colors import THEMES
-from crossview.scene.geometry import Triangles
+from crossview.scene.geometry import FloatArray, Triangles
 from crossview.scene.overlay import Label, Patches, bytes_of
 from crossview.scene.view import SceneView
 
-_LENGTH, _CORNER, _TEXT_SIZE = 24.0, 46.0, 11.0
+_LENGTH, _CORNER = 24.0, 46.0
+TEXT_SIZE, LINE_WIDTH = 11.0, 1.5
 
 
 class AxesLayer:
@@ -20,9 +22,9 @@ class AxesLayer:
         self._renderer = plotter.renderer
         self._ratio = pixel_ratio
         self._lines = Patches(plotter, (1.0, 1.0))
-        self._lines.property.SetLineWidth(1.5 * pixel_ratio)
+        self._lines.property.SetLineWidth(LINE_WIDTH * pixel_ratio)
         self._labels = [
-            Label(plotter, (1.0, 1.0), _TEXT_SIZE * pixel_ratio, "centre") for _ in "xyz"
+            Label(plotter, (1.0, 1.0), TEXT_SIZE * pixel_ratio, "centre") for _ in "xyz"
         ]
         self._color = ""
         self._turned: tuple[float, ...] = ()
@@ -48,19 +50,30 @@ class AxesLayer:
     def _turn(self, *_: object) -> None:
         if not self._color:
             return
-        camera = self._renderer.GetActiveCamera()
-        matrix = camera.GetViewTransformMatrix()
-        turn = np.array([[matrix.GetElement(i, j) for j in range(3)] for i in range(3)])
+        turn = rows(self._renderer.GetActiveCamera().GetViewTransformMatrix())[:3, :3]
         if tuple(turn.ravel()) == self._turned:
             return
         self._turned = tuple(turn.ravel())
-        centre = np.array([-_CORNER, -_CORNER])
-        tips = turn[:2].T
-        points = np.vstack([centre, centre + _LENGTH * tips]) * self._ratio
-        cells = np.array([[0, 1], [0, 2], [0, 3]])
-        self._lines.show(points, cells, bytes_of([self._color] * 3), lines=True)
-        for label, tip, name in zip(self._labels, tips, "xyz", strict=True):
-            # An axis that points at the eye would write its name over the others.
-            seen = name if np.hypot(*tip) > 0.2 else ""
-            x, y = (centre + (_LENGTH + 9.0) * tip) * self._ratio
-            label.show(seen, (x, y), self._color)
+        lines, names = axes_layout(turn)
+        cells = np.arange(6).reshape(3, 2)
+        colors = bytes_of([self._color] * 3)
+        self._lines.show(lines.reshape(-1, 2) * self._ratio, cells, colors, lines=True)
+        for label, (name, x, y) in zip(self._labels, names, strict=True):
+            label.show(name, (x * self._ratio, y * self._ratio), self._color)
+
+
+def axes_layout(turn: FloatArray) -> tuple[FloatArray, list[tuple[str, float, float]]]:
+    """Return lines (3, 2, 2) and names with their places, in pixels from the top right corner.
+
+    Parameters
+    ----------
+    turn : (3, 3) float
+        From space to right, up and towards the eye.
+    """
+    centre = np.array([-_CORNER, -_CORNER])
+    tips = turn[:2].T
+    lines = centre + _LENGTH * np.stack([0.0 * tips, tips], axis=1)
+    # An axis that points at the eye would write its name over the others.
+    names = ["" if np.hypot(*tip) < 0.2 else name for name, tip in zip("xyz", tips, strict=True)]
+    places = centre + (_LENGTH + 9.0) * tips
+    return lines, [(n, float(x), float(y)) for n, (x, y) in zip(names, places, strict=True)]

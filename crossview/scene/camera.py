@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from vtkmodules.vtkCommonMath import vtkMatrix4x4
 from vtkmodules.vtkRenderingCore import vtkCamera
 
 from crossview.scene.geometry import FloatArray, Triangles
@@ -107,6 +108,11 @@ def camera_for(text: str, triangles: Triangles, room: Room) -> Camera:
             "the camera looks along its own up", "camera", "choose another up or position"
         )
     return Camera(tuple(position), tuple(focus), tuple(upward))
+
+
+def rows(matrix: vtkMatrix4x4) -> FloatArray:
+    """Return a VTK matrix as an array (4, 4)."""
+    return np.array([[matrix.GetElement(i, j) for j in range(4)] for i in range(4)])
 
 
 def _directions(text: str, triangles: Triangles) -> tuple[FloatArray, FloatArray]:

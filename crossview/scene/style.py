@@ -24,7 +24,7 @@ TOWARDS = {
     "problem faces": 150.0,
     "problem lines": 600.0,
     "problem dots": 900.0,
-    "singularities": 1200.0,
-    "selection": 1200.0,
-    "preview": 1500.0,
+    "singularities": 2500.0,
+    "selection": 2500.0,
+    "preview": 3000.0,
 }
