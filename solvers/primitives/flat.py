@@ -58,9 +58,8 @@ def annulus(inner: float = 0.4, outer: float = 1.0, n: int = 96) -> TriSurface:
     inner, outer = positive("inner", inner), positive("outer", outer)
     if inner >= outer:
         raise SurfaceError(f"inner radius {inner:g} is not below the outer radius {outer:g}")
-    rows = (
-        max(round((math.log(outer) - math.log(inner)) / (math.sqrt(0.75) * 2 * math.pi / n)), 1) + 1
-    )
+    height = math.log(outer) - math.log(inner)
+    rows = max(round(height / (math.sqrt(0.75) * 2 * math.pi / n)), 1) + 1
     affordable(rows * n)
     faces, angle = rings(n, rows)
     # from the outer circle inwards, for the normal to point upwards

@@ -1,0 +1,53 @@
+"""The README's examples run, and its tables say what is there."""
+
+import inspect
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from crossview.case import Case
+from crossview.io import SUFFIXES
+from crossview.pipeline import solve_case
+from solvers.primitives import BUILTIN
+from solvers.progress import run
+
+README = (Path(__file__).resolve().parents[1] / "README.md").read_text(encoding="utf-8")
+
+
+def block(language):
+    """The only example in a language."""
+    (text,) = re.findall(rf"```{language}\n(.*?)```", README, re.DOTALL)
+    return text
+
+
+def test_the_python_example_prints_what_its_comments_say(capsys):
+    exec(block("python"), {})
+    printed = capsys.readouterr().out.splitlines()
+    assert printed[:2] == ["index 0 of 0", "[45.]"]
+    for line in printed[:2]:
+        assert f"# {line}" in README
+
+
+def test_the_case_example_solves():
+    (solution,) = run(solve_case(Case.from_json(json.loads(block("json")))))
+    assert solution.field.index_sum == solution.field.index_required
+    assert [s.locked for s in solution.singularities] == [False, True]
+
+
+@pytest.mark.parametrize("name", BUILTIN)
+def test_built_in_surfaces_are_listed_with_their_parameters(name):
+    (row,) = re.findall(rf"^\| `{name}` \|.*\| (.*) \|$", README, re.MULTILINE)
+    listed = dict(re.findall(r"`(\w+)` (\S+?)(?:,|$)", row.replace("(a pentagon)", "pentagon")))
+    parameters = inspect.signature(BUILTIN[name]).parameters
+    assert list(listed) == list(parameters)
+    for key, text in listed.items():
+        if key != "outer" and text != "[]":
+            assert float(text) == parameters[key].default
+
+
+@pytest.mark.parametrize("suffix", SUFFIXES)
+def test_file_formats_are_named(suffix):
+    known = {".gltf": "glTF", ".obj": "OBJ", ".msh": "MSH"}.get(suffix, suffix[1:].upper())
+    assert known in README
