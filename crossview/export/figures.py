@@ -6,7 +6,7 @@ import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from crossview.export.raster import FigureError, picture
+from crossview.export.raster import FigureError, check_size, picture
 from crossview.export.vector import save_vector
 from crossview.pipeline import Solution
 from crossview.scene import (
@@ -14,9 +14,11 @@ from crossview.scene import (
     LayerSettings,
     SceneView,
     default_layers,
+    ensure_rendering,
     field_view,
     layers_named,
 )
+from crossview.scene.camera import read_camera
 from crossview.scene.view import Background
 from crossview.staging import staged
 
@@ -64,6 +66,7 @@ def render(
     CrossviewError
         Unknown layer, camera or file suffix; a size that cannot be drawn; no drawing here.
     """
+    check(path, layers=layers, size=size, scale=scale, camera=camera)
     chosen: Mapping[str, LayerSettings] = layers_named(layers) if layers else default_layers()
     cut_graph = solution.cut_graph if chosen["cut"].visible else None
     view = field_view(
@@ -73,6 +76,29 @@ def render(
         background="transparent" if transparent else background,
     )
     return render_view(view, path, size=size, scale=scale, camera=camera)
+
+
+def check(
+    path: str | os.PathLike[str],
+    *,
+    layers: Sequence[str] | None = None,
+    size: tuple[int, int] = (1600, 1200),
+    scale: float = 1.0,
+    camera: str = "auto",
+) -> None:
+    """Find mistakes in what is asked of `render` before a long computation; see there."""
+    _check_kind(Path(path))
+    check_size(size, scale)
+    read_camera(camera)
+    layers_named(layers or ())
+    ensure_rendering()
+
+
+def _check_kind(path: Path) -> None:
+    if path.suffix.lower() not in KINDS:
+        raise FigureError(
+            "unknown kind of figure", path.name, "end its name in " + ", ".join(KINDS)
+        )
 
 
 def render_view(
@@ -88,13 +114,9 @@ def render_view(
     A `Camera`, as `Scene.camera` gives, is taken as it is.
     """
     target = Path(path)
-    kind = target.suffix.lower()
-    if kind not in KINDS:
-        raise FigureError(
-            "unknown kind of figure", str(target), "end its name in " + ", ".join(KINDS)
-        )
+    _check_kind(target)
     with staged(target.parent) as staging:
-        if kind == ".png":
+        if target.suffix.lower() == ".png":
             picture(view, size, scale, camera).save(staging / target.name, "PNG")
         else:
             save_vector(view, staging / target.name, size, scale, camera)

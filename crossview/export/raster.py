@@ -22,7 +22,8 @@ from solvers.errors import CrossviewError
 # A picture of this height, in pixels, has texts and lines of the window's size.
 _NOMINAL_HEIGHT = 640.0
 # Each pixel is the mean of this many squared, as long as the whole stays below the limit.
-_SUPERSAMPLING, _MOST_PIXELS, _LONGEST_SIDE = 2, 40e6, 16384
+_SUPERSAMPLING, _MOST_PIXELS = 2, 40e6
+_SHORTEST_SIDE, _LONGEST_SIDE = 16, 8192
 # Also makes wide lines end square, whatever their direction.
 _MULTI_SAMPLES = 4
 
@@ -52,7 +53,7 @@ def picture(
     FigureError
         The size cannot be drawn.
     """
-    width, height = (round(side * scale) for side in size)
+    width, height = check_size(size, scale)
     fine = _supersampling(width, height)
     ratio = fine * scale * pixel_ratio(size)
     with _staged_scene(fine * width, fine * height, ratio, texts) as (plotter, scene):
@@ -129,6 +130,18 @@ def seen(view: SceneView, size: tuple[int, int], camera: str | Camera) -> Seen:
         return Seen(size, rows(matrix), turn, depth, scene.h_range)
 
 
+def check_size(size: tuple[int, int], scale: float) -> tuple[int, int]:
+    """Return the pixels of a picture, or raise if they are too few or too many to draw."""
+    width, height = (round(side * scale) for side in size)
+    if min(width, height) < _SHORTEST_SIDE or max(width, height) > _LONGEST_SIDE:
+        raise FigureError(
+            f"cannot draw {width} x {height} pixels",
+            "size times scale",
+            f"choose sides from {_SHORTEST_SIDE} to {_LONGEST_SIDE}",
+        )
+    return width, height
+
+
 def pixel_ratio(size: tuple[int, int]) -> float:
     """Return the pixels of a figure per pixel of the window, for texts and lines."""
     width, height = size
@@ -139,12 +152,6 @@ def pixel_ratio(size: tuple[int, int]) -> float:
 def _staged_scene(
     width: int, height: int, ratio: float, texts: bool
 ) -> Iterator[tuple[pv.Plotter, Scene]]:
-    if min(width, height) < 16 or max(width, height) > _LONGEST_SIDE:
-        raise FigureError(
-            f"cannot draw {width} x {height} pixels",
-            "size times scale",
-            f"choose sides from 16 to {_LONGEST_SIDE}",
-        )
     ensure_rendering()
     plotter = pv.Plotter(off_screen=True, window_size=(width, height), lighting="none")
     try:

@@ -89,10 +89,24 @@ def camera_for(text: str, triangles: Triangles, room: Room) -> Camera:
     CrossviewError
         The text is neither.
     """
+    chosen = read_camera(text)
+    if isinstance(chosen, Camera):
+        return chosen
+    away, up = _directions(chosen, triangles)
+    parallel = chosen in ("xy", "xz", "yz") or triangles.plane_normal is not None
+    return (_fit_parallel if parallel else _fit)(triangles.points, away, up, room)
+
+
+def read_camera(text: str) -> str | Camera:
+    """Return the preset that a text names, or the camera that its nine numbers are.
+
+    Raises
+    ------
+    CrossviewError
+        The text is neither.
+    """
     if text in PRESETS:
-        away, up = _directions(text, triangles)
-        parallel = text in ("xy", "xz", "yz") or triangles.plane_normal is not None
-        return (_fit_parallel if parallel else _fit)(triangles.points, away, up, room)
+        return text
     try:
         numbers = [float(part) for part in text.split(",")]
     except ValueError:
