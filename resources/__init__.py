@@ -1,1 +1,1 @@
-"""What crossview ships beside its code: gallery cases and icons (read through importlib.resources)."""
+"""What crossview ships beside its code, read through importlib.resources."""
