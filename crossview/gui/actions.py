@@ -11,6 +11,7 @@ from PySide6.QtGui import QAction, QIcon, QKeySequence
 
 from crossview.gui.icons import icon, valence_icon
 from crossview.gui.state import WindowState
+from crossview.scene import LAYERS
 
 if TYPE_CHECKING:
     from crossview.gui.main_window import MainWindow
@@ -125,6 +126,20 @@ def _views() -> tuple[ActionSpec, ...]:
     )
 
 
+def _layers() -> tuple[ActionSpec, ...]:
+    return tuple(
+        ActionSpec(
+            f"layer-{kind.name}",
+            f"Show {kind.label if kind.name == 'H' else kind.label.lower()}",
+            "View",
+            lambda w, name=kind.name: w.layers_panel.toggle(name),  # type: ignore[misc]
+            checked=lambda s, name=kind.name: s.layers[name].visible,  # type: ignore[misc]
+            separated=kind is LAYERS[0],
+        )
+        for kind in LAYERS
+    )
+
+
 ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec(
         "open", "Open…", "File", lambda w: w.files.ask_open(), ("Ctrl+O",), "open",
@@ -156,7 +171,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
         tip="Open the same file again and keep its largest piece", enabled=_open,
     ),
     ActionSpec(
-        "select", "Select", "Singularities", lambda w: w.workspace.set(tool=None, trial=None),
+        "select", "Select", "Singularities", lambda w: w.escape(),
         ("Esc",), "select", "Select and drag singularities; elsewhere turn the view",
         checked=lambda s: s.tool is None,
     ),
@@ -166,10 +181,15 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "Click on the surface places the valence chosen beside", _open, _is_any,
     ),
     ActionSpec(
+        "edit", "Change valence…", "Singularities",
+        partial(_with_selected, lambda w, i: w.singularities_panel.edit(i)),
+        ("Return", "Enter"),
+        tip="Type another valence; also a double click", enabled=_selected, separated=True,
+    ),
+    ActionSpec(
         "raise", "Raise valence", "Singularities",
         partial(_with_selected, lambda w, i: w.workspace.step_valence(i, 1)), ("+", "="), "plus",
         "One more quad at the selected singularity; also the wheel over it", _selected,
-        separated=True,
     ),
     ActionSpec(
         "lower", "Lower valence", "Singularities",
@@ -206,6 +226,12 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "Show the whole surface", _open,
     ),
     *_views(),
+    *_layers(),
+    ActionSpec(
+        "dark", "Dark scene", "View",
+        lambda w: w.workspace.set(dark=not w.state.dark), checked=lambda s: s.dark,
+        separated=True,
+    ),
     ActionSpec(
         "palette", "Command palette…", "Help", lambda w: w.show_palette(), ("Ctrl+Shift+P",),
         "search", "Find any action by name",
@@ -221,7 +247,7 @@ TOOLBAR: tuple[str, ...] = (
 )  # fmt: skip
 """Names of actions; "|" is a line, "->" pushes the rest to the right."""
 
-LABELLED = ("open", "solve", "figure")
+LABELLED = ("open", "solve", "stop", "figure")
 
 
 class Actions:

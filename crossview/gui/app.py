@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import sys
 
 from PySide6.QtWidgets import QApplication
@@ -36,7 +37,9 @@ def run(path: str | None) -> int:
     """
     ensure_rendering()
     app = application()
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl+C in the terminal ends the window too
     window = MainWindow()
+    sys.excepthook = lambda kind, error, trace: window.workspace.report(error)
     window.show()
     if path is not None:
         window.files.open(path)

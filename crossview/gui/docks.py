@@ -11,37 +11,48 @@ if TYPE_CHECKING:
     from crossview.gui.main_window import MainWindow
 
 LEFT, RIGHT = Qt.DockWidgetArea.LeftDockWidgetArea, Qt.DockWidgetArea.RightDockWidgetArea
-LEFT_WIDTH, RIGHT_WIDTH = 288, 232
+LEFT_WIDTH, RIGHT_WIDTH = 300, 232
+LEFT_LEAST, RIGHT_LEAST = 272, 208
 
 
 def add_docks(window: MainWindow) -> dict[str, QDockWidget]:
     """Stand the panels of `window` in docks; return these by title."""
-    places: tuple[tuple[str, QWidget, Qt.DockWidgetArea, int], ...] = (
-        ("Surface", window.surface_panel, LEFT, 150),
-        ("Singularities", window.singularities_panel, LEFT, 300),
-        ("Validity", window.validity_panel, LEFT, 230),
-        ("Layers", window.layers_panel, RIGHT, 440),
-        ("Export", window.export_panel, RIGHT, 200),
+    places: tuple[tuple[str, QWidget, Qt.DockWidgetArea], ...] = (
+        ("Surface", window.surface_panel, LEFT),
+        ("Singularities", window.singularities_panel, LEFT),
+        ("Validity", window.validity_panel, LEFT),
+        ("Layers", window.layers_panel, RIGHT),
+        ("Export", window.export_panel, RIGHT),
     )
     docks = {}
-    for title, panel, area, _ in places:
+    for title, panel, area in places:
         dock = QDockWidget(title, window)
         dock.setObjectName(title)
         panel.setAutoFillBackground(True)
         panel.setBackgroundRole(panel.palette().ColorRole.Base)
+        panel.setMinimumWidth(LEFT_LEAST if area == LEFT else RIGHT_LEAST)
         dock.setWidget(panel)
         dock.setTitleBarWidget(_title_bar(title))
         window.addDockWidget(area, dock)
         docks[title] = dock
-    window.resizeDocks(
-        [docks[title] for title, *_ in places],
-        [height for *_, height in places],
-        Qt.Orientation.Vertical,
-    )
+    return docks
+
+
+def size_docks(window: MainWindow) -> None:
+    """Give the docks of a shown window their first sizes: what has little to say, little room."""
+    docks, height = window.docks, window.centre.height()
     window.resizeDocks(
         [docks["Surface"], docks["Layers"]], [LEFT_WIDTH, RIGHT_WIDTH], Qt.Orientation.Horizontal
     )
-    return docks
+    for column, shares in (
+        (("Surface", "Singularities", "Validity"), (0.2, 0.45, 0.35)),
+        (("Layers", "Export"), (0.68, 0.32)),
+    ):
+        window.resizeDocks(
+            [docks[title] for title in column],
+            [round(height * share) for share in shares],
+            Qt.Orientation.Vertical,
+        )
 
 
 def _title_bar(title: str) -> QLabel:

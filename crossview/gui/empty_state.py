@@ -5,16 +5,17 @@ from __future__ import annotations
 from importlib.resources import files
 
 from PySide6.QtCore import QSize, Qt, Signal
-from PySide6.QtGui import QIcon, QPixmap
+from PySide6.QtGui import QIcon, QPixmap, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QToolButton, QVBoxLayout, QWidget
 
 from crossview.gui.icons import icon
 
-THUMBNAIL = QSize(208, 156)
+THUMBNAIL, SMALLEST = 208, 120
+ASPECT, GAP = 4 / 3, 16
 FEATURED = (
     ("sphere-cube", "Cube on a sphere"),
     ("disk-4", "Four on a disk"),
-    ("suboptimal", "Plate with holes"),
+    ("suboptimal-a", "Plate with holes"),
 )
 
 
@@ -41,7 +42,7 @@ class EmptyState(QWidget):
         browse.clicked.connect(self.open_wanted)
         self.thumbnails = [self._thumbnail(name, text) for name, text in FEATURED]
         row = QHBoxLayout()
-        row.setSpacing(16)
+        row.setSpacing(GAP)
         row.addStretch()
         for button in self.thumbnails:
             row.addWidget(button)
@@ -54,12 +55,20 @@ class EmptyState(QWidget):
         layout.addLayout(row)
         layout.addStretch(4)
 
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Let the thumbnails shrink with the window."""
+        room = (self.width() - 6 * GAP) // len(self.thumbnails)
+        width = min(max(room, SMALLEST), THUMBNAIL)
+        for button in self.thumbnails:
+            button.setIconSize(QSize(width, round(width / ASPECT)))
+        super().resizeEvent(event)
+
     def _thumbnail(self, name: str, text: str) -> QToolButton:
         button = QToolButton()
         button.setObjectName(name)
         button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextUnderIcon)
         button.setAutoRaise(True)
-        button.setIconSize(THUMBNAIL)
+        button.setMinimumWidth(SMALLEST)
         picture = files("crossview.resources") / "thumbnails" / f"{name}.png"
         pixmap = QPixmap()
         pixmap.loadFromData(picture.read_bytes())

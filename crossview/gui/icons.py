@@ -84,4 +84,5 @@ def dot_icon(color: str) -> QIcon:
             inset = size * 0.22
             painter.drawEllipse(QRectF(inset, inset, size - 2 * inset, size - 2 * inset))
         made.addPixmap(pixmap)
+        made.addPixmap(pixmap, QIcon.Mode.Selected)  # else a selected row tints it
     return made

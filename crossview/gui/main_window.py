@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QPoint, Qt
+from PySide6.QtCore import QPoint
 from PySide6.QtGui import (
     QCloseEvent,
     QDragEnterEvent,
     QDropEvent,
-    QKeyEvent,
     QResizeEvent,
+    QShowEvent,
 )
 from PySide6.QtWidgets import QMainWindow, QMessageBox, QStackedWidget, QVBoxLayout, QWidget
 
 import crossview
 from crossview.gui.actions import Actions
-from crossview.gui.docks import add_docks
+from crossview.gui.docks import add_docks, size_docks
 from crossview.gui.empty_state import EmptyState
 from crossview.gui.files import Files
 from crossview.gui.menus import Menus, make_toolbar
@@ -77,7 +77,7 @@ class MainWindow(QMainWindow):
         self.actions_table = Actions(self)
         named = self.actions_table.by_name
         self.surface_panel = SurfacePanel()
-        self.singularities_panel = SingularitiesPanel(self.workspace, named)
+        self.singularities_panel: SingularitiesPanel = SingularitiesPanel(self.workspace, named)
         self.validity_panel = ValidityPanel(self.workspace)
         self.layers_panel = LayersPanel(self.workspace)
         self.export_panel = ExportPanel(named["figure"])
@@ -85,9 +85,11 @@ class MainWindow(QMainWindow):
         self.menus = Menus(self)
         self.toolbar = make_toolbar(self)
         self.status = Status(self)
+        self._sized = False
         self.workspace.changed.connect(self._show_state)
         self.workspace.opened.connect(self._opened)
         self.viewport.menu_wanted.connect(self._show_menu)
+        self.viewport.edit_wanted.connect(self.singularities_panel.edit)
         self.centre.empty.chosen.connect(self.files.open)
         self.centre.empty.open_wanted.connect(self.files.ask_open)
         self.actions_table.show(self.state)
@@ -99,7 +101,7 @@ class MainWindow(QMainWindow):
 
     def show_palette(self) -> None:
         """Open the command palette."""
-        Palette(self.menus.all_actions(), self).popup()
+        Palette(self.menus.titled_actions(), self).popup()
 
     def show_about(self) -> None:
         """Say what this is."""
@@ -110,11 +112,10 @@ class MainWindow(QMainWindow):
             "and the boundary-aligned cross-field they give.</p><p>BSD-3-Clause</p>",
         )
 
-    def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Esc during a drag puts the singularity back."""
-        if event.key() == Qt.Key.Key_Escape:
-            self.viewport.mouse.let_go()
-        super().keyPressEvent(event)
+    def escape(self) -> None:
+        """Put a dragged singularity back, else take the select tool."""
+        if not self.viewport.mouse.let_go():
+            self.workspace.set(tool=None, trial=None)
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         """Take files."""
@@ -128,6 +129,13 @@ class MainWindow(QMainWindow):
                 event.acceptProposedAction()
                 self.files.open(url.toLocalFile())
                 return
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Size the docks once there is a size to share."""
+        super().showEvent(event)
+        if not self._sized:
+            self._sized = True
+            size_docks(self)
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """End the background and free what VTK holds."""

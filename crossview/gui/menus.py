@@ -43,12 +43,14 @@ class Menus:
             self._add(self._menus["Gallery"], name, partial(window.files.open, name))
         self._fill_view()
 
-    def all_actions(self) -> list[QAction]:
-        """Return every action there is, for the palette."""
-        actions: list[QAction] = []
-        for menu in self._menus.values():
-            actions += [a for a in menu.actions() if not a.isSeparator() and a.menu() is None]
-        return actions
+    def titled_actions(self) -> list[tuple[str, QAction]]:
+        """Return every action there is with its menu in its title, for the palette."""
+        return [
+            (f"{title}: {action.text().replace('&', '').rstrip('…')}", action)
+            for title, menu in self._menus.items()
+            for action in menu.actions()
+            if not action.isSeparator() and action.menu() is None
+        ]
 
     def show_recent(self) -> None:
         """Fill the menu of recent files anew."""

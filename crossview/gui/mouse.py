@@ -72,6 +72,8 @@ class Mouse(QObject):
         self._pressed_at, self._moved = event.position(), False
         if event.button() == Qt.MouseButton.LeftButton:
             index = self._viewport.singularity_at(event.position())
+            if index is not None and event.type() == QEvent.Type.MouseButtonDblClick:
+                self._viewport.edit_wanted.emit(index)
             self._grip = _Grip.CAMERA if index is None else _Grip.SINGULARITY
             self._held = -1 if index is None else index
         return self._grip is _Grip.SINGULARITY
@@ -143,8 +145,10 @@ class Mouse(QObject):
             point: SurfacePoint | None = None if pick is None or over is not None else pick.point
             self._workspace.preview(point)
 
-    def let_go(self) -> None:
-        """End a drag and put the singularity back (Esc)."""
-        if self._grip is _Grip.DRAG:
-            self._grip = _Grip.NOTHING
-            self._workspace.cancel_drag()
+    def let_go(self) -> bool:
+        """End a drag, if there is one, and put the singularity back."""
+        if self._grip is not _Grip.DRAG:
+            return False
+        self._grip = _Grip.NOTHING
+        self._workspace.cancel_drag()
+        return True

@@ -21,12 +21,12 @@ WIDTH, ROWS, ROW_HEIGHT = 460, 12, 28
 class Palette(QFrame):
     """A search field over a list; Enter runs, Esc or a click elsewhere closes."""
 
-    def __init__(self, actions: Iterable[QAction], parent: QWidget) -> None:
+    def __init__(self, actions: Iterable[tuple[str, QAction]], parent: QWidget) -> None:
         super().__init__(parent, Qt.WindowType.Popup)
         self._over = parent
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setFrameShape(QFrame.Shape.StyledPanel)
-        self._actions = [action for action in actions if action.isEnabled()]
+        self._actions = [(title, action) for title, action in actions if action.isEnabled()]
         self.search = QLineEdit()
         self.search.setPlaceholderText("Search actions")
         self.search.setClearButtonEnabled(True)
@@ -72,8 +72,7 @@ class Palette(QFrame):
     def _filter(self, text: str) -> None:
         words = text.lower().split()
         self.list.clear()
-        for action in self._actions:
-            title = action.text().replace("&", "").rstrip("…")
+        for title, action in self._actions:
             searched = f"{title} {action.toolTip()}".lower()
             if all(word in searched for word in words):
                 keys = action.shortcut().toString()

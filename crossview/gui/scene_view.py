@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from crossview.gui.state import WindowState
 from crossview.scene import LayerSettings, Marker, SceneView
+from crossview.scene.view import Background
 from solvers.surface import TriSurface
 from solvers.triangulation import FloatArray, IntArray
 
@@ -23,8 +24,9 @@ def scene_view(state: WindowState, held_range: Range | None = None) -> SceneView
         Colour range to keep, so that colours do not jump while something is dragged.
     """
     surface, document = state.shown_surface, state.document
+    background: Background = "dark" if state.dark else "white"
     if surface is None or document is None:
-        return SceneView(layers=state.layers)
+        return SceneView(background=background, layers=state.layers)
     field = state.field if state.field is not None and state.field.surface is surface else None
     positions = document.surface.positions([s.point for s in state.singularities])
     markers = tuple(
@@ -42,6 +44,7 @@ def scene_view(state: WindowState, held_range: Range | None = None) -> SceneView
         cut_graph=None if field is None else state.cut_graph,
         loop=_loop(state),
         title=document.source.title or document.name,
+        background=background,
         layers=_layers(state.layers, held_range),
     )
 

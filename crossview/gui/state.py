@@ -42,7 +42,7 @@ class Message:
     details : str
         More to read and copy; may be empty.
     actions : tuple of MessageAction
-    error : Exception or None
+    error : BaseException or None
         Offending elements to point out come from here.
     """
 
@@ -51,7 +51,7 @@ class Message:
     severity: str = "error"
     details: str = ""
     actions: tuple[MessageAction, ...] = ()
-    error: Exception | None = None
+    error: BaseException | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,6 +105,8 @@ class WindowState:
         Number of the holonomy condition whose loop is pointed out.
     trial : Trial or None
     layers : mapping of str to LayerSettings
+    dark : bool
+        Whether the scene has a dark background.
     message : Message or None
     progress : Progress or None
         What the background is doing; None: nothing.
@@ -122,6 +124,7 @@ class WindowState:
     condition: int | None = None
     trial: Trial | None = None
     layers: Mapping[str, LayerSettings] = dataclasses.field(default_factory=default_layers)
+    dark: bool = False
     message: Message | None = None
     progress: Progress | None = None
     undo_name: str | None = None

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt, QTimer, Signal
-from PySide6.QtGui import QMouseEvent, QWheelEvent
+from PySide6.QtGui import QMouseEvent, QResizeEvent, QWheelEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 from pyvistaqt import QtInteractor
 
@@ -42,6 +42,8 @@ class Viewport(QWidget):
     """Pick under the mouse, or None."""
     menu_wanted = Signal(object, QPoint)
     """Singularity number or None, and where on the screen."""
+    edit_wanted = Signal(int)
+    """A singularity was clicked twice."""
     frame_drawn = Signal(float)
     """Milliseconds that a frame took."""
 
@@ -60,6 +62,7 @@ class Viewport(QWidget):
         self.plotter.installEventFilter(self.mouse)
         self._held_range: tuple[float, float] | None = None
         self._started = 0.0
+        self._fitted: str | None = "auto"  # the preset view, until the user turns it
         self._late = QTimer(self)
         self._late.setSingleShot(True)
         self._late.setInterval(LATE_MS)
@@ -85,6 +88,12 @@ class Viewport(QWidget):
             return
         self._late.stop()
         self._draw()
+        if (old.field is None) is not (new.field is None):  # the colour bar comes or goes
+            self._refit()
+
+    def _refit(self) -> None:
+        if self._fitted is not None:
+            self.look_from(self._fitted)
 
     def _draw(self) -> None:
         if self.scene.show(scene_view(self._workspace.state, self._held_range)):
@@ -95,9 +104,15 @@ class Viewport(QWidget):
         self.look_from("auto")
 
     def look_from(self, camera: str) -> None:
-        """Look from one of the scene's preset directions."""
+        """Look from one of the scene's preset directions, filling the room there is."""
+        self._fitted = camera
         self.scene.fit(camera)
         self.plotter.update()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Fill the new room, unless the user has chosen a view."""
+        super().resizeEvent(event)
+        self._refit()
 
     def export(self, path: Path, settings: FigureSettings) -> None:
         """Write what is shown, seen from here, as a PNG."""
@@ -141,6 +156,8 @@ class Viewport(QWidget):
 
     def pass_on(self, event: QEvent) -> bool:
         """Hand an event to VTK's camera without its extra frame; say that it is dealt with."""
+        if isinstance(event, QWheelEvent) or event.type() == QEvent.Type.MouseMove:
+            self._fitted = None
         interactor = self.plotter.iren.interactor
         interactor.EnableRenderOff()
         try:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import traceback
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from PySide6.QtCore import QObject, Signal
@@ -73,12 +74,36 @@ class Workspace(QObject):
 
     # ---- opening -------------------------------------------------------------------------------
 
-    def open(self, target: str, component: str | None = None) -> None:
-        """Open a file, gallery case or built-in surface in the background."""
+    def open(self, target: str, component: str | None = None, repair: bool = False) -> None:
+        """Open a file, gallery case or built-in surface in the background.
+
+        Parameters
+        ----------
+        target : str
+            As for `open_target`.
+        component : str, optional
+            Which piece to take of a surface in several.
+        repair : bool
+            Also mend what cannot be mended without changing the surface.
+        """
+        offers = (
+            ("choose the largest", "Use the largest piece", ("largest", repair)),
+            ("repair the surface", "Repair", (component, True)),
+        )
+
+        def failed(error: Exception) -> None:
+            remedy = error.remedy if isinstance(error, SurfaceError) else ""
+            actions = tuple(
+                MessageAction(label, partial(self.open, target, *choices))
+                for start, label, choices in offers
+                if remedy.startswith(start)
+            )
+            self._fail(error, "open", actions)
+
         self._submit(
-            lambda: open_target(target, component=component),
+            lambda: open_target(target, component=component, repair=repair),
             self._open_document,
-            lambda error: self._opening_failed(error, target),
+            failed,
         )
 
     def _open_document(self, document: Document) -> None:
@@ -89,13 +114,6 @@ class Workspace(QObject):
         if document.problem.notes:
             notes = "; ".join(document.problem.notes)
             self.set(message=Message(notes, "edit", "info"))
-
-    def _opening_failed(self, error: Exception, target: str) -> None:
-        actions: tuple[MessageAction, ...] = ()
-        if isinstance(error, SurfaceError) and "component" in error.remedy:
-            largest = MessageAction("Use the largest piece", lambda: self.open(target, "largest"))
-            actions = (largest,)
-        self._fail(error, "open", actions)
 
     # ---- editing -------------------------------------------------------------------------------
 
@@ -243,7 +261,7 @@ class Workspace(QObject):
             self._submit(
                 lambda: solve(self._pipeline, problem),
                 self._show_solution,
-                lambda error: self._fail(error, "solve"),
+                self._solve_failed,
             )
 
     def stop(self) -> None:
@@ -257,6 +275,7 @@ class Workspace(QObject):
         """Bring everything in line with the present document of the history."""
         document, state = self._history.document, self._state
         self._background.forget()
+        self._clear_message("solve")
         same = (
             document is not None
             and state.document is not None
@@ -295,6 +314,10 @@ class Workspace(QObject):
         self.set(solution=solution, base=base, field=solution.field, cut_graph=None)
         self._cut_if_wanted()
 
+    def _solve_failed(self, error: Exception) -> None:
+        self.set(solution=None, field=None, cut_graph=None)
+        self._fail(error, "solve")
+
     def _show_base(self, base: LiveBase) -> None:
         self.set(base=base)
 
@@ -319,7 +342,13 @@ class Workspace(QObject):
         if message is not None and message.cause == cause:
             self.set(message=None)
 
-    def _fail(self, error: Exception, cause: str, actions: tuple[MessageAction, ...] = ()) -> None:
+    def report(self, error: BaseException) -> None:
+        """Show an error that nothing else has dealt with."""
+        self._fail(error, "unexpected")
+
+    def _fail(
+        self, error: BaseException, cause: str, actions: tuple[MessageAction, ...] = ()
+    ) -> None:
         if isinstance(error, CrossviewError):
             text, details = str(error), describe(error)
         else:

@@ -86,6 +86,11 @@ class SingularitiesPanel(QWidget):
         self.table.setVisible(bool(new.singularities))
         self._select(new.selected)
 
+    def edit(self, row: int) -> None:
+        """Edit the valence of singularity `row` in its cell."""
+        self.table.setFocus()
+        self.table.edit(self.model.index(row, VALENCE))
+
     def _make_table(self) -> QTableView:
         table = QTableView()
         table.setModel(self.model)
@@ -103,7 +108,7 @@ class SingularitiesPanel(QWidget):
         header.setMinimumSectionSize(24)
         header.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
         header.setSectionResizeMode(POSITION, QHeaderView.ResizeMode.Stretch)
-        for column, width in enumerate((46, 58, 44, 100, 26)):
+        for column, width in enumerate((44, 54, 44, 100, 26)):
             table.setColumnWidth(column, width)
         table.clicked.connect(self._clicked)
         table.selectionModel().currentRowChanged.connect(self._current_changed)

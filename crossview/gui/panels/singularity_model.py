@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, Qt
 
 from crossview.gui.icons import dot_icon, icon
@@ -37,7 +38,8 @@ class SingularityModel(QAbstractTableModel):
         if not same_rows:
             self.beginResetModel()
         self._singularities = state.singularities
-        self._positions = [position(xyz) for xyz in positions]
+        flat = document is not None and bool(np.ptp(document.surface.vertices[:, 2]) == 0.0)
+        self._positions = [position(xyz[:2] if flat else xyz) for xyz in positions]
         if not same_rows:
             self.endResetModel()
         elif points:

@@ -34,13 +34,15 @@ def degrees(value: float) -> str:
     """Return an angle in degrees with the digits that matter near zero."""
     if abs(value) < 5e-4:
         return "0°"
-    digits = 3 if abs(value) < 0.1 else 2 if abs(value) < 10.0 else 1
+    digits = 3 if abs(value) < 0.1 else 2 if abs(value) < 1.0 else 1
     return signed(value, digits).lstrip("+") + "°"
 
 
 def position(coordinates: Sequence[float]) -> str:
-    """Return "0.31, −0.22, 1.00"."""
-    return ", ".join(f"{x:.3g}".replace("-", MINUS) if abs(x) >= 5e-4 else "0" for x in coordinates)
+    """Return "0.31, −0.22, 1.00": three significant digits of the largest, aligned."""
+    largest = max((abs(x) for x in coordinates), default=0.0)
+    digits = 2 if largest < 100.0 and largest >= 0.1 else 0 if largest >= 100.0 else 4
+    return ", ".join(signed(x, digits).lstrip("+") for x in coordinates)
 
 
 def hover(H: float | None, triangle: int) -> str:

@@ -89,12 +89,19 @@ class ValidityPanel(QWidget):
         self._row_layout = QVBoxLayout(self._list)
         self._row_layout.setContentsMargins(0, 0, 0, 0)
         self._row_layout.setSpacing(0)
+        self.free = QLabel("No loops to check: the index sum is enough.")
+        self.free.setWordWrap(True)
+        self.free.setContentsMargins(30, 3, 8, 3)
+        self.free.setForegroundRole(self.palette().ColorRole.PlaceholderText)
+        self._row_layout.addWidget(self.free)
         self._row_layout.addStretch()
         scroll = QScrollArea()
         scroll.setFrameShape(QFrame.Shape.NoFrame)
         scroll.setWidgetResizable(True)
         scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         scroll.setWidget(self._list)
+        scroll.viewport().setAutoFillBackground(False)
+        self._list.setAutoFillBackground(False)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 4, 0, 4)
         layout.setSpacing(0)
@@ -154,6 +161,7 @@ class ValidityPanel(QWidget):
         if state.base is not None:
             labels = tuple(c.label for c in state.base.solver.holonomy.conditions)
         self._make_rows(len(labels))
+        self.free.setVisible(state.base is not None and not labels)
         defects = state.defects
         for i, (row, label) in enumerate(zip(self.rows, labels, strict=True)):
             if defects is None:
