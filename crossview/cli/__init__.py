@@ -19,7 +19,12 @@ from solvers.errors import CrossviewError
 
 __all__ = ["app", "main"]
 
-app = App(name="crossview", version=__version__, help_format="plaintext")
+app = App(
+    name="crossview",
+    version=__version__,
+    help_format="plaintext",
+    suppress_keyboard_interrupt=False,
+)
 app.default(window)
 for command in (info, solve, render, gallery):
     app.command(command)
@@ -36,11 +41,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        Exit status: 0, 2 for a mistake the user can mend, 130 when interrupted.
+        Exit status: 0 (or the window's), 2 for a mistake the user can mend, 130 when interrupted.
     """
     tokens = list(sys.argv[1:] if arguments is None else arguments)
     try:
-        app(tokens, exit_on_error=False, print_error=False, result_action="return_value")
+        status: int | None = app(
+            tokens, exit_on_error=False, print_error=False, result_action="return_value"
+        )
     except CycloptsError as error:
         return _refuse(_usage_error(tokens, error))
     except CrossviewError as error:
@@ -50,7 +57,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         complain("crossview: interrupted")
         return 130
-    return 0
+    return status or 0
 
 
 def _refuse(error: CrossviewError) -> int:

@@ -41,7 +41,7 @@ def render(
     case
         A case, a surface without singularities, or the name of a gallery case.
     output
-        The picture, a PNG.
+        The picture: .png, or .svg or .pdf with curves and crosses as vectors.
     layers
         What to draw, such as H,crosses,singularities,cut; by default what the window shows.
     size
@@ -60,11 +60,13 @@ def render(
         Show neither progress nor summary.
     """
     from crossview.export.figures import render as draw
+    from crossview.scene import layers_named
 
     found = chosen_case(case, component=component, repair=repair)
     if found.options.component == "all":
         raise CrossviewError("a picture shows one component", "all", "name one with --component")
     shown = None if layers is None else [name.strip() for name in layers.split(",")]
+    layers_named(shown or [])  # a wrong name is told before the work and not after
     pixels = _size(size)
 
     def work(path: Path) -> Generator[Progress, None, Solution]:

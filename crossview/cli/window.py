@@ -10,7 +10,7 @@ from crossview.gallery import find_case
 from solvers.errors import CrossviewError
 
 
-def window(file: str | None = None, /) -> None:
+def window(file: str | None = None, /) -> int:
     """Impose singularities on a surface, solve its cross-field, and see whether it is valid.
 
     Opens the window; the commands do the same without one.
@@ -25,7 +25,7 @@ def window(file: str | None = None, /) -> None:
     require_display(file)
     from crossview.gui.app import run  # Qt is loaded only for the window
 
-    run(file)
+    return run(file)
 
 
 def require_display(file: str | None) -> None:

@@ -5,8 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import product
-from math import cos, radians, sin, sqrt
 from pathlib import Path
 from typing import Any
 
@@ -52,12 +50,3 @@ def case_file(tmp_path) -> Callable[..., Path]:
         return path
 
     return write
-
-
-CUBE = [(tuple(s / sqrt(3) for s in signs), 3) for signs in product((-1, 1), repeat=3)]
-"""Valence 3 at the corners of a cube in the unit sphere."""
-
-
-def around(degrees: float, radius: float = 0.7) -> tuple[float, float, float]:
-    """A point in the plane z = 0 by its polar angle."""
-    return (radius * cos(radians(degrees)), radius * sin(radians(degrees)), 0.0)
