@@ -70,7 +70,7 @@ class CrossGlyphs:
         number = density * (_NUMBER if triangles.plane_normal is None else _NUMBER_PLANAR)
         self.sites = spread_sites(triangles, number)
         self._corners = triangles.faces[self.sites.faces]
-        self._longest = 0.95 * self.sites.border
+        self._longest = 0.95 * self.sites.free
 
     def ends(
         self, u: FloatArray, v: FloatArray, H: FloatArray | None, size: float, uniform: bool

@@ -63,12 +63,29 @@ class Triangles:
         return np.asarray(areas, float)
 
     @cached_property
+    def _edges(self) -> tuple[IntArray, IntArray, IntArray]:
+        """Edges (e, 2), how many triangles have each, and the sides (3 m,) sorted by edge."""
+        sides = np.sort(self.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+        keys = sides[:, 0].astype(np.int64) * len(self.points) + sides[:, 1]
+        order = np.argsort(keys, kind="stable")
+        first = np.flatnonzero(np.diff(keys[order], prepend=-1))
+        counts = np.diff(first, append=len(keys))
+        return sides[order[first]], counts, order
+
+    @cached_property
     def boundary_edges(self) -> IntArray:
         """(k, 2): the edges of one triangle only."""
-        edges = np.sort(self.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-        keys = edges[:, 0].astype(np.int64) * len(self.points) + edges[:, 1]
-        unique, counts = np.unique(keys, return_counts=True)
-        return np.stack(np.divmod(unique[counts == 1], len(self.points)), axis=1)
+        edges, counts, _ = self._edges
+        return edges[counts == 1]
+
+    def sharp_edges(self, degrees: float) -> IntArray:
+        """(k, 2): the edges of two triangles that turn by more than an angle."""
+        edges, counts, order = self._edges
+        pairs = counts == 2
+        at = (np.cumsum(counts) - counts)[pairs]
+        left, right = (self.normals[order[i] // 3] for i in (at, at + 1))
+        turned = np.einsum("ij,ij->i", left, right) < np.cos(np.radians(degrees))
+        return edges[pairs][turned]
 
     @cached_property
     def plane_normal(self) -> FloatArray | None:

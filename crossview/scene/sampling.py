@@ -19,6 +19,8 @@ _PACKING = 0.77
 _NORMAL_WEIGHT = 0.75
 # No site nearer to the boundary than this, in distances.
 _BORDER = 0.36
+# Edges sharper than this, in degrees, end the arms of crosses.
+_SHARP = 50.0
 # Triangles larger than this, in areas per site, hold more than one.
 _LARGE = 3.0
 
@@ -33,8 +35,8 @@ class Sites:
     weights : (k, 3) float
         Barycentric; a third each unless the triangle is large.
     positions : (k, 3) float
-    border : (k,) float
-        Distance to the boundary; inf without one.
+    free : (k,) float
+        Distance that is free around each of boundary and sharp edges; inf far from them.
     spacing : float
         A middling distance between sites.
     """
@@ -42,7 +44,7 @@ class Sites:
     faces: IntArray
     weights: FloatArray
     positions: FloatArray
-    border: FloatArray
+    free: FloatArray
     spacing: float
 
 
@@ -67,7 +69,10 @@ def spread_sites(triangles: Triangles, count: float) -> Sites:
     positions = np.einsum("kc,kcx->kx", weights, triangles.points[triangles.faces[faces]])
     centre = np.arange(len(faces)) < len(share)
     rank = _position_hash(positions, triangles.points)
-    border = _border_distance(positions, triangles, radius)
+    border = _distance(positions, triangles.points[triangles.boundary_edges], radius)
+    sharp = triangles.points[triangles.sharp_edges(_SHARP)]
+    # Crosses end at sharp edges too, but there may be any number of them.
+    free = np.minimum(border, np.maximum(_distance(positions, sharp, radius), _BORDER * radius))
     kept = ((rank <= share[faces]) | ~centre) & (border >= _BORDER * radius)
     # The barycentres first: more sites in a large triangle only fill it up.
     order = np.where(centre, rank / np.maximum(share[faces], 1e-300), 1.0 + rank)
@@ -76,7 +81,7 @@ def spread_sites(triangles: Triangles, count: float) -> Sites:
     pairs = cKDTree(where).query_pairs(radius, output_type="ndarray")
     chosen = chosen[_lowest_apart(order[chosen], pairs)]
     spacing = float(np.sqrt(total / max(len(chosen), 1)))
-    return Sites(faces[chosen], weights[chosen], positions[chosen], border[chosen], spacing)
+    return Sites(faces[chosen], weights[chosen], positions[chosen], free[chosen], spacing)
 
 
 def _candidates(share: FloatArray) -> tuple[IntArray, FloatArray]:
@@ -93,9 +98,8 @@ def _candidates(share: FloatArray) -> tuple[IntArray, FloatArray]:
     return np.concatenate([np.arange(len(share)), faces]), np.vstack([thirds, inside])
 
 
-def _border_distance(positions: FloatArray, triangles: Triangles, radius: float) -> FloatArray:
-    """Distance of each position to the boundary, told from points on it, to radius / 8."""
-    ends = triangles.points[triangles.boundary_edges]
+def _distance(positions: FloatArray, ends: FloatArray, radius: float) -> FloatArray:
+    """Distance of each position to segments (e, 2, 3), told from points on them, to radius / 8."""
     if not len(ends):
         return np.full(len(positions), np.inf)
     lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)

@@ -115,18 +115,20 @@ class Scene:
         """The camera as it is now."""
         return Camera.of(self._plotter.renderer.GetActiveCamera())
 
-    def fit(self, camera: str | Camera = "auto") -> None:
+    def fit(self, camera: str | Camera = "auto", all_texts: bool = False) -> None:
         """Set the camera so that the surface fills the room between the texts.
 
         Parameters
         ----------
         camera : str or Camera
             As `camera.camera_for` reads it; a `Camera` is taken as it is.
+        all_texts : bool
+            Keep room also for texts that are not shown yet, so that they may come and go.
         """
         if self._triangles is None:
             return
         if isinstance(camera, str):
-            camera = camera_for(camera, self._triangles, self._room())
+            camera = camera_for(camera, self._triangles, self._room(all_texts))
         camera.apply(self._plotter.renderer.GetActiveCamera())
         self._plotter.renderer.ResetCameraClippingRange()
         # Else pyvista chooses its own view before the first frame.
@@ -139,7 +141,7 @@ class Scene:
         if self._bar is not None:
             self._bar.remove()
 
-    def _room(self) -> Room:
+    def _room(self, all_texts: bool) -> Room:
         width, height = self._plotter.window_size
         margin = MARGIN * self._ratio
         view = self._view
@@ -147,9 +149,9 @@ class Scene:
             width,
             height,
             left=margin,
-            right=BAR_ROOM * self._ratio if shown_scalar(view) else margin,
+            right=BAR_ROOM * self._ratio if all_texts or shown_scalar(view) else margin,
             top=2.2 * margin if view.title else margin,
-            bottom=LEGEND_ROOM * self._ratio if view.singularities else margin,
+            bottom=LEGEND_ROOM * self._ratio if all_texts or view.singularities else margin,
         )
 
 

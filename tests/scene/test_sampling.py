@@ -61,7 +61,7 @@ def test_nothing_reaches_over_the_boundary():
     sites = spread_sites(triangles(annulus(n=96)), 900)
     radius = np.linalg.norm(sites.positions, axis=1)
     exact = np.minimum(radius - 0.4, 1.0 - radius)
-    near = sites.border < sites.spacing
+    near = sites.free < sites.spacing
     assert near.sum() > 50
-    assert sites.border.min() > 0.25 * sites.spacing
-    assert np.abs(sites.border - exact)[near].max() < 0.2 * sites.spacing
+    assert sites.free.min() > 0.25 * sites.spacing
+    assert np.abs(sites.free - exact)[near].max() < 0.2 * sites.spacing
