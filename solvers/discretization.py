@@ -52,6 +52,9 @@ class Discretization:
     ----------
     surface : TriSurface
         The surface.
+    flips : bool, optional
+        Whether to flip to Delaunay; without, the triangulation is the surface's own, and the
+        operator may have negative weights where its triangles are obtuse.
 
     Attributes
     ----------
@@ -71,7 +74,7 @@ class Discretization:
         Halfedge of the longest boundary the crosses are aligned with; -1 on closed surfaces.
     """
 
-    def __init__(self, surface: TriSurface) -> None:
+    def __init__(self, surface: TriSurface, *, flips: bool = True) -> None:
         self.surface = surface
         own = surface.triangulation
         self.handles = handle_loops(own, surface.boundary_loops)
@@ -80,7 +83,8 @@ class Discretization:
         marked = np.array([*starts, *self.handles.closing], dtype=np.int64)
         marks[0, marked] = np.arange(1, len(marked) + 1)
         chain = np.concatenate([self.handles.chain, marks])
-        self.delaunay = DelaunayTriangulation(own, chain[:-1] != 0, chain)
+        fixed = chain[:-1] != 0 if flips else np.ones((1, len(own.twin)), dtype=bool)
+        self.delaunay = DelaunayTriangulation(own, fixed, chain)
         self.triangulation: IntrinsicTriangulation = self.delaunay.triangulation
         self.chain = self.delaunay.chain[:-1]
         place = np.flatnonzero(self.delaunay.chain[-1])

@@ -13,7 +13,7 @@ from scipy.sparse import csc_array
 from scipy.sparse.linalg import splu
 
 from solvers.errors import SolveError
-from solvers.triangulation import FloatArray
+from solvers.triangulation import FloatArray, IntArray
 
 try:
     import rslab
@@ -22,6 +22,8 @@ except ImportError:  # an optional accelerator: SuperLU answers the same
 
 RESIDUAL_BOUND = 1e-8
 """Relative residual above which a factor is not trusted."""
+
+SYMMETRIC_MODE = {"diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}
 
 Solve = Callable[[FloatArray], FloatArray]
 
@@ -33,22 +35,13 @@ class Factorization:
     ----------
     matrix : (n, n) sparse array
         Symmetric positive definite, both triangles stored.
-    accelerated : bool, optional
-        Whether to use rslab where it is installed.
-
-    Raises
-    ------
-    SolveError
-        If the matrix is singular.
+    solve : callable
+        What the factor does to a right-hand side.
     """
 
-    def __init__(self, matrix: csc_array, *, accelerated: bool = True) -> None:
-        self.matrix = csc_array(matrix)
-        self._solve = self._trusted_solver(accelerated and rslab is not None)
-
-    def solve(self, right_hand_side: FloatArray) -> FloatArray:
-        """Return the solution for one right-hand side (n,)."""
-        return self._solve(right_hand_side)
+    def __init__(self, matrix: csc_array, solve: Solve) -> None:
+        self.matrix = matrix
+        self.solve = solve
 
     def residual(self, solution: FloatArray, right_hand_side: FloatArray) -> float:
         """Return the largest residual relative to the largest term in the sums."""
@@ -59,32 +52,92 @@ class Factorization:
         )
         return float(np.abs(self.matrix @ solution - right_hand_side).max(initial=0.0) / scale)
 
-    def _trusted_solver(self, accelerated: bool) -> Solve:
-        probe = np.cos(np.arange(self.matrix.shape[0], dtype=np.float64))
-        for factor in (_rslab, _superlu) if accelerated else (_superlu,):
+
+class Analysis:
+    """The order of elimination of a sparsity pattern, found once for many matrices.
+
+    Parameters
+    ----------
+    matrix : (n, n) sparse array
+        Symmetric, both triangles stored; only its pattern counts.
+    accelerated : bool, optional
+        Whether to use rslab where it is installed.
+    """
+
+    def __init__(self, matrix: csc_array, *, accelerated: bool = True) -> None:
+        self._libraries: list[Callable[[csc_array], Solve]] = []
+        if accelerated and rslab is not None:
+            self._libraries.append(_Rslab(matrix))
+        self._libraries.append(_SuperLU())
+
+    def factor(self, matrix: csc_array) -> Factorization:
+        """Return the factorization of a matrix with the analysed pattern.
+
+        Raises
+        ------
+        SolveError
+            If the matrix is singular.
+        """
+        probe = np.cos(np.arange(matrix.shape[0], dtype=np.float64))
+        for library in self._libraries:
             try:
-                solve = factor(self.matrix)
+                factorization = Factorization(matrix, library(matrix))
             except RuntimeError:
                 continue
-            if self.residual(solve(probe), probe) <= RESIDUAL_BOUND:
-                return solve
+            if factorization.residual(factorization.solve(probe), probe) <= RESIDUAL_BOUND:
+                return factorization
         raise SolveError(
             "the linear system is singular",
-            f"{self.matrix.shape[0]} unknowns",
+            f"{matrix.shape[0]} unknowns",
             "look for triangles without area",
         )
 
 
-def _rslab(matrix: csc_array) -> Solve:
-    solve: Solve = rslab.ldlt(matrix, ordering="amd").solve
-    return solve
+def factorized(matrix: csc_array, *, accelerated: bool = True) -> Factorization:
+    """Return the factorization of one symmetric positive definite matrix.
+
+    Parameters
+    ----------
+    matrix, accelerated
+        As in `Analysis`.
+
+    Raises
+    ------
+    SolveError
+        If the matrix is singular.
+    """
+    matrix = csc_array(matrix)
+    return Analysis(matrix, accelerated=accelerated).factor(matrix)
 
 
-def _superlu(matrix: csc_array) -> Solve:
-    factor = splu(
-        matrix,
-        permc_spec="MMD_AT_PLUS_A",
-        diag_pivot_thresh=0.0,
-        options={"SymmetricMode": True},
-    )
-    return factor.solve
+class _Rslab:
+    """Supernodal LDL^T."""
+
+    def __init__(self, matrix: csc_array) -> None:
+        self._symbolic = rslab.analyze(matrix, path="ldlt", ordering="amd")
+
+    def __call__(self, matrix: csc_array) -> Solve:
+        solve: Solve = self._symbolic.factor(matrix).solve
+        return solve
+
+
+class _SuperLU:
+    """SuperLU in symmetric mode; a second matrix reuses the first one's order of elimination."""
+
+    def __init__(self) -> None:
+        self._order: IntArray | None = None
+
+    def __call__(self, matrix: csc_array) -> Solve:
+        if self._order is None:
+            factor = splu(matrix, permc_spec="MMD_AT_PLUS_A", **SYMMETRIC_MODE)
+            self._order = np.argsort(factor.perm_c)
+            return factor.solve
+        order = self._order
+        factor = splu(matrix[order][:, order].tocsc(), permc_spec="NATURAL", **SYMMETRIC_MODE)
+
+        def solve(right_hand_side: FloatArray) -> FloatArray:
+            solution = np.empty_like(right_hand_side)
+            solution[order] = factor.solve(right_hand_side[order])
+            return solution
+
+        return solve

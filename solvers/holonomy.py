@@ -13,7 +13,7 @@ import numpy as np
 from solvers.discretization import QUARTER, Condition, Discretization
 from solvers.factorization import Factorization
 from solvers.singularities import Singularity
-from solvers.triangulation import FloatArray, wrap
+from solvers.triangulation import FloatArray, next_halfedge, wrap
 
 
 class Holonomy:
@@ -66,6 +66,7 @@ class Holonomy:
         self._corner_values = nodal[:, t.faces]
         self._corner_values[:, :, 1] -= jumps[:, :, 0]
         self._corner_values[:, :, 2] -= jumps[:, :, 0] + jumps[:, :, 1]
+        self._paths = forms
 
     @property
     def conditions(self) -> tuple[Condition, ...]:
@@ -89,3 +90,29 @@ class Holonomy:
         index = np.array([s.index for s in singularities], dtype=np.float64)
         potential = np.einsum("ckj,kj->ck", self._corner_values[:, faces], weights)
         return wrap(self._constant + QUARTER * potential @ index, QUARTER)
+
+    def harmonic_correction(self, turns: FloatArray) -> FloatArray:
+        """Return what to add to H so that the defects change by given angles, and nothing else.
+
+        A multiple-valued function whose gradient is the harmonic 1-form sum c_i eta_i with
+        eta_i = dZ_i - gamma_i; the rotation over path j changes by P_ji c_i, where
+        P_ij = <gamma_i, eta_j> with the cotangent weights.
+
+        Parameters
+        ----------
+        turns : (2 g + max(b - 1, 0),) float array
+            Radians to add to each defect.
+
+        Returns
+        -------
+        (m, 3) float array
+            Values at the corners of the triangulation's triangles.
+        """
+        t = self._discretization.triangulation
+        h = t.edge_halfedges
+        after = next_halfedge(h)
+        values = self._corner_values.reshape(len(turns), -1)
+        harmonic = values[:, after] - values[:, h]
+        product = -(self._paths[:, h] * t.weights[h]) @ harmonic.T
+        coefficients = np.linalg.solve(product, turns)
+        return np.asarray(np.einsum("c,cmi->mi", coefficients, self._corner_values))

@@ -17,7 +17,7 @@ from solvers.cut_graph import cut_graph
 from solvers.discretization import QUARTER, Discretization
 from solvers.embedded import split_offsets
 from solvers.errors import SingularityError
-from solvers.factorization import Factorization
+from solvers.factorization import factorized
 from solvers.holonomy import Holonomy
 from solvers.operators import lumped_mass, midpoint_offsets, stiffness
 from solvers.singularities import Singularity, default_corners, index_budget
@@ -35,6 +35,8 @@ class IsotropicSolver:
     corners : mapping of int to int, optional
         Index of each boundary vertex where the field turns; by default what `default_corners`
         reads from the interior angles.
+    flips : bool, optional
+        As in `Discretization`.
 
     Raises
     ------
@@ -42,13 +44,19 @@ class IsotropicSolver:
         If the surface's triangles are too poor for the system to be solved.
     """
 
-    def __init__(self, surface: TriSurface, corners: Mapping[int, int] | None = None) -> None:
+    def __init__(
+        self,
+        surface: TriSurface,
+        corners: Mapping[int, int] | None = None,
+        *,
+        flips: bool = True,
+    ) -> None:
         self.surface = surface
         self.corners = dict(default_corners(surface) if corners is None else corners)
-        self.discretization = Discretization(surface)
+        self.discretization = Discretization(surface, flips=flips)
         matrix = stiffness(self.discretization.triangulation)
         # H is unique up to a constant: the first vertex is pinned, the mean subtracted after.
-        self.factorization = Factorization(matrix[1:, 1:])
+        self.factorization = factorized(matrix[1:, 1:])
         self._mass = lumped_mass(self.discretization.triangulation)
 
     @cached_property

@@ -10,7 +10,7 @@ import numpy as np
 
 from solvers.cut_graph import cut_graph
 from solvers.discretization import QUARTER, Discretization
-from solvers.factorization import Factorization
+from solvers.factorization import factorized
 from solvers.operators import crouzeix_raviart, midpoint_offsets
 from solvers.triangulation import FloatArray, IntArray
 
@@ -59,7 +59,7 @@ def least_squares_theta(
     value = np.empty(len(right))
     value[pin] = _reference_angle(d, h)
     right -= matrix[:, [pin]].toarray()[:, 0] * value[pin]
-    value[free] = Factorization(matrix[free][:, free]).solve(right[free])
+    value[free] = factorized(matrix[free][:, free]).solve(right[free])
     return np.asarray((value[unknown] + known).reshape(-1, 3).mean(axis=1))
 
 

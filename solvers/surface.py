@@ -114,9 +114,13 @@ class TriSurface:
                 loop.append(vertex)
                 vertex = following.pop(vertex)
             loops.append(np.array(loop, dtype=np.int64))
-        return tuple(sorted(loops, key=self._loop_length, reverse=True))
+        # Equal lengths may differ by rounding; such loops keep the order of their first vertices.
+        return tuple(
+            sorted(loops, key=lambda loop: -round(self.loop_length(loop) / self.diagonal, 9))
+        )
 
-    def _loop_length(self, loop: IntArray) -> float:
+    def loop_length(self, loop: IntArray) -> float:
+        """Return the length of the closed polygon through the vertices `loop`."""
         p = self.vertices[loop]
         return float(np.linalg.norm(np.roll(p, -1, axis=0) - p, axis=1).sum())
 

@@ -33,8 +33,8 @@ def test_shape_boundary_and_places_are_kept(name: str, levels: int) -> None:
     assert (refined.vertices[: surface.n_vertices] == surface.vertices).all()
     places = refined.vertices[refinement.vertices]
     assert np.abs(places - surface.positions(ANYWHERE)).max() < 1e-14
-    assert [surface._loop_length(loop) for loop in surface.boundary_loops] == pytest.approx(
-        [refined._loop_length(loop) for loop in refined.boundary_loops]
+    assert [surface.loop_length(loop) for loop in surface.boundary_loops] == pytest.approx(
+        [refined.loop_length(loop) for loop in refined.boundary_loops]
     )
     assert default_corners(refined) == default_corners(surface)
     # Each refined triangle lies in the plane of its parent, within it.
