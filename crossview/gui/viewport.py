@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt, QTimer, Signal
-from PySide6.QtGui import QMouseEvent, QResizeEvent, QWheelEvent
+from PySide6.QtGui import QFont, QFontMetrics, QMouseEvent, QResizeEvent, QWheelEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 from pyvistaqt import QtInteractor
 
@@ -31,6 +31,8 @@ from crossview.scene.singularities import marker_radius
 
 LATE_MS = 80
 """How long a dragged singularity waits to be drawn together with its field."""
+TITLE_PIXELS, BESIDE_TITLE = 17, 130
+"""Height of the title's letters; pixels beside it that the axes need."""
 REACH = 7.0
 """Pixels around a singularity that count as on it."""
 
@@ -88,16 +90,17 @@ class Viewport(QWidget):
             return
         self._late.stop()
         self._draw()
-        if (old.field is None) is not (new.field is None):  # the colour bar comes or goes
-            self._refit()
-
-    def _refit(self) -> None:
-        if self._fitted is not None:
-            self.look_from(self._fitted)
 
     def _draw(self) -> None:
-        if self.scene.show(scene_view(self._workspace.state, self._held_range)):
+        view = scene_view(self._workspace.state, self._held_range)
+        if self.scene.show(replace(view, title=self._elided(view.title))):
             self.plotter.update()
+
+    def _elided(self, title: str) -> str:
+        font = QFont()
+        font.setPixelSize(TITLE_PIXELS)
+        room = self.plotter.width() - BESIDE_TITLE
+        return QFontMetrics(font).elidedText(title, Qt.TextElideMode.ElideRight, room)
 
     def fit(self) -> None:
         """Show the whole surface from a good side."""
@@ -106,13 +109,15 @@ class Viewport(QWidget):
     def look_from(self, camera: str) -> None:
         """Look from one of the scene's preset directions, filling the room there is."""
         self._fitted = camera
-        self.scene.fit(camera)
+        self.scene.fit(camera, all_texts=True)
         self.plotter.update()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Fill the new room, unless the user has chosen a view."""
         super().resizeEvent(event)
-        self._refit()
+        if self._fitted is not None:
+            self.look_from(self._fitted)
+        self._draw()
 
     def export(self, path: Path, settings: FigureSettings) -> None:
         """Write what is shown, seen from here, as a PNG."""
