@@ -78,6 +78,22 @@ class Triangles:
         edges, counts, _ = self._edges
         return edges[counts == 1]
 
+    @cached_property
+    def outward(self) -> int:
+        """1 if closed with all normals outward, -1 if all inward, else 0."""
+        a, b, c = self.faces.T
+        sides = np.concatenate(
+            [a * np.int64(len(self.points)) + b for a, b in ((a, b), (b, c), (c, a))]
+        )
+        twins = np.concatenate(
+            [b * np.int64(len(self.points)) + a for a, b in ((a, b), (b, c), (c, a))]
+        )
+        sides.sort()
+        twins.sort()
+        if not np.array_equal(sides, twins) or (sides[1:] == sides[:-1]).any():
+            return 0
+        return int(np.sign(np.einsum("ij,ij->", self.barycentres, self.area_vectors)))
+
     def sharp_edges(self, degrees: float) -> IntArray:
         """(k, 2): the edges of two triangles that turn by more than an angle."""
         edges, counts, order = self._edges

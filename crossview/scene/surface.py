@@ -22,7 +22,7 @@ _FEATURE_ANGLE = 50.0
 _LEAST_LIMIT = 0.01
 _EDGE_COLOR = "#9aa0a8"
 # Light that comes from everywhere; the rest comes from the scene's lights.
-AMBIENT = 0.42
+AMBIENT = 0.44
 
 
 class SurfaceLayer:
@@ -56,9 +56,10 @@ class SurfaceLayer:
         self._actor.mapper.SetScalarVisibility(bool(shown))
         settings = view.layer("surface")
         self._actor.visible = bool(shown) or settings.visible
-        if self._watch.changed("style", settings):
+        if self._watch.changed("style", settings, triangles):
             self._actor.property.SetOpacity(settings.opacity)
             self._actor.property.SetEdgeVisibility(settings.edges)
+            self._cull(triangles, settings.opacity)
             self._actor.property.SetLineWidth(WIDTH["edges"] * self._pixel_ratio)
 
     def remove(self) -> None:
@@ -71,6 +72,12 @@ class SurfaceLayer:
             return
         self._actor.replace(triangles.points, faces=triangles.faces)
         self._origin = _shade(self._actor.mesh)
+
+    def _cull(self, triangles: Triangles | None, opacity: float) -> None:
+        """Leave out the far side of a closed surface: nearly half the time of a frame."""
+        side = triangles.outward if triangles is not None and opacity == 1.0 else 0
+        self._actor.property.SetBackfaceCulling(side > 0)
+        self._actor.property.SetFrontfaceCulling(side < 0)
 
     def _color(self, view: SceneView, shown: str, triangles: Triangles) -> None:
         settings = view.layer(shown)
