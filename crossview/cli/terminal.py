@@ -39,7 +39,7 @@ def _write(console: Console, line: str) -> None:
 
 
 def watch(computation: Generator[Progress, None, T], quiet: bool = False) -> T:
-    """Run a computation; show its progress on stderr when it takes more than a second.
+    """Run a computation; show its progress on a terminal when it takes more than a second.
 
     Parameters
     ----------
@@ -48,13 +48,14 @@ def watch(computation: Generator[Progress, None, T], quiet: bool = False) -> T:
     quiet : bool
         Show nothing.
     """
-    if quiet:
+    console = Console(stderr=True)
+    if quiet or not console.is_terminal:
         return run(computation)
     bar = Bar(
         TextColumn("{task.description}"),
         BarColumn(),
         TimeElapsedColumn(),
-        console=Console(stderr=True),
+        console=console,
         transient=True,
     )
     task = bar.add_task("starting", total=1.0)

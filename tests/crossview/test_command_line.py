@@ -292,6 +292,7 @@ def test_long_work_shows_its_progress(case_file, tmp_path):
     assert "━" in ran.stderr
     assert ran.stdout.endswith(f"wrote {tmp_path / 'out'}\n")
     assert "━" not in ran.stdout
+    assert run("solve", path, "-o", tmp_path / "out").stderr == ""
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no such signal")
