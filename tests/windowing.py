@@ -45,7 +45,7 @@ class Hand:
         end = time.monotonic() + PATIENCE
         while True:
             QApplication.processEvents()
-            if not self.window.workspace.busy and wanted():
+            if not self.window.workspace.solving.busy and wanted():
                 break
             assert time.monotonic() < end, f"still waiting; message: {self.state.message}"
             time.sleep(0.002)

@@ -13,6 +13,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QMainWindow, QMessageBox, QStackedWidget, QVBoxLayout, QWidget
 
 import crossview
+from crossview.gui.action_table import ACTIONS
 from crossview.gui.actions import Actions
 from crossview.gui.docks import add_docks, size_docks
 from crossview.gui.empty_state import EmptyState
@@ -74,7 +75,7 @@ class MainWindow(QMainWindow):
         self.centre: Centre = Centre(self.workspace)
         self.setCentralWidget(self.centre)
         self.viewport: Viewport = self.centre.viewport
-        self.actions_table = Actions(self)
+        self.actions_table = Actions(ACTIONS, self)
         named = self.actions_table.by_name
         self.surface_panel = SurfacePanel()
         self.singularities_panel: SingularitiesPanel = SingularitiesPanel(self.workspace, named)

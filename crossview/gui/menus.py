@@ -12,7 +12,7 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QMenu, QSizePolicy, QSpinBox, QToolBar, QToolButton, QWidget
 
 from crossview.gallery import names
-from crossview.gui.actions import ACTIONS, LABELLED, TOOL_VALENCES, TOOLBAR
+from crossview.gui.action_table import ACTIONS, LABELLED, TOOL_VALENCES, TOOLBAR
 from crossview.gui.recent import forget_all, recent
 from crossview.session.commands import MAX_VALENCE, MIN_VALENCE
 

@@ -82,12 +82,12 @@ class Mouse(QObject):
         away = (event.position() - self._pressed_at).manhattanLength() >= CLICK_REACH
         self._moved |= away and bool(event.buttons())
         if self._grip is _Grip.SINGULARITY and self._moved:
-            started = self._workspace.start_drag(self._held)
+            started = self._workspace.trials.start_drag(self._held)
             self._grip = _Grip.DRAG if started else _Grip.CAMERA
         if self._grip is _Grip.DRAG:
             pick = self._viewport.pick(event.position())
             if pick is not None:
-                self._workspace.drag_to(pick.point)
+                self._workspace.trials.drag_to(pick.point)
             return True
         if not event.buttons():
             self._hover(event.position())
@@ -105,7 +105,7 @@ class Mouse(QObject):
         if event.button() != Qt.MouseButton.LeftButton:
             return False
         if grip is _Grip.DRAG:
-            self._workspace.drop()
+            self._workspace.trials.drop()
         elif grip is _Grip.SINGULARITY:
             self._workspace.set(selected=self._held)
         elif not self._moved:
@@ -143,12 +143,12 @@ class Mouse(QObject):
         self._viewport.point_out(over)
         if self._workspace.state.tool is not None:
             point: SurfacePoint | None = None if pick is None or over is not None else pick.point
-            self._workspace.preview(point)
+            self._workspace.trials.preview(point)
 
     def let_go(self) -> bool:
         """End a drag, if there is one, and put the singularity back."""
         if self._grip is not _Grip.DRAG:
             return False
         self._grip = _Grip.NOTHING
-        self._workspace.cancel_drag()
+        self._workspace.trials.cancel()
         return True

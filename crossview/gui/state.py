@@ -42,8 +42,6 @@ class Message:
     details : str
         More to read and copy; may be empty.
     actions : tuple of MessageAction
-    error : BaseException or None
-        Offending elements to point out come from here.
     """
 
     text: str
@@ -51,7 +49,6 @@ class Message:
     severity: str = "error"
     details: str = ""
     actions: tuple[MessageAction, ...] = ()
-    error: BaseException | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -168,6 +165,17 @@ class WindowState:
         """Largest defect called valid, degrees."""
         options = None if self.document is None else self.document.problem.options
         return 0.01 if options is None else options.tolerance_degrees
+
+    @property
+    def solved(self) -> bool:
+        """Whether `solution` is of the present document."""
+        if self.document is None or self.solution is None:
+            return False
+        return self.solution.problem is self.document.problem
+
+    def lifted(self, point: SurfacePoint) -> SurfacePoint:
+        """Return a point of the shown surface as one of the document's."""
+        return point if self.base is None else self.base.lift(point)
 
     def with_layer(self, name: str, **changes: object) -> WindowState:
         """Return the state with settings of one layer changed."""

@@ -1,0 +1,203 @@
+"""The one table of actions that menus, toolbar, shortcuts and palette are made from."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING
+
+from crossview.gui.actions import ActionSpec
+from crossview.gui.state import WindowState
+from crossview.scene import LAYERS
+
+if TYPE_CHECKING:
+    from crossview.gui.main_window import MainWindow
+
+TOOL_VALENCES = (3, 5, 6, 8)
+
+
+def _open(state: WindowState) -> bool:
+    return state.document is not None
+
+
+def _selected(state: WindowState) -> bool:
+    return state.document is not None and state.selected is not None
+
+
+def _solvable(state: WindowState) -> bool:
+    return state.document is not None and state.document.budget.satisfied
+
+
+def _tool(window: MainWindow, valence: int) -> None:
+    """Take the add tool for `valence`, or put it back when it is in hand."""
+    state = window.workspace.state
+    window.workspace.set(tool=None if state.tool == valence else valence, trial=None)
+
+
+def _any_tool(window: MainWindow) -> None:
+    _tool(window, window.workspace.state.any_valence)
+
+
+def _is_any(state: WindowState) -> bool:
+    return state.tool is not None and state.tool not in TOOL_VALENCES
+
+
+def _with_selected(verb: Callable[[MainWindow, int], None], window: MainWindow) -> None:
+    index = window.workspace.state.selected
+    if index is not None:
+        verb(window, index)
+
+
+def _tools() -> tuple[ActionSpec, ...]:
+    return tuple(
+        ActionSpec(
+            f"add-{valence}",
+            f"Add valence {valence}",
+            "Singularities",
+            partial(_tool, valence=valence),
+            (str(valence),),
+            f"valence:{valence}",
+            f"Click on the surface places a valence {valence}; again or Esc ends",
+            _open,
+            lambda state, valence=valence: state.tool == valence,  # type: ignore[misc]
+        )
+        for valence in TOOL_VALENCES
+    )
+
+
+def _views() -> tuple[ActionSpec, ...]:
+    views = (("+z", "From above"), ("-y", "From the front"), ("+x", "From the right"))
+    return tuple(
+        ActionSpec(
+            f"view{direction}",
+            text,
+            "View",
+            lambda w, direction=direction: w.viewport.look_from(direction),  # type: ignore[misc]
+            enabled=_open,
+        )
+        for direction, text in views
+    )
+
+
+def _layers() -> tuple[ActionSpec, ...]:
+    return tuple(
+        ActionSpec(
+            f"layer-{kind.name}",
+            f"Show {kind.label if kind.name == 'H' else kind.label.lower()}",
+            "View",
+            lambda w, name=kind.name: w.layers_panel.toggle(name),  # type: ignore[misc]
+            checked=lambda s, name=kind.name: s.layers[name].visible,  # type: ignore[misc]
+            separated=kind is LAYERS[0],
+        )
+        for kind in LAYERS
+    )
+
+
+ACTIONS: tuple[ActionSpec, ...] = (
+    ActionSpec(
+        "open", "Open…", "File", lambda w: w.files.ask_open(), ("Ctrl+O",), "open",
+        "Open a surface or a case",
+    ),
+    ActionSpec(
+        "save", "Save case as…", "File", lambda w: w.files.ask_save(), ("Ctrl+S",), "save",
+        "Write surface, singularities and options as a case file", _open,
+    ),
+    ActionSpec(
+        "figure", "Figure…", "File", lambda w: w.files.ask_figure(), ("Ctrl+E",), "figure",
+        "Write what is shown as a PNG, with the settings of the Export panel", _open,
+        separated=True,
+    ),
+    ActionSpec(
+        "quit", "Quit", "File", lambda w: w.close(), ("Ctrl+Q",), tip="Close the window",
+        separated=True,
+    ),
+    ActionSpec(
+        "undo", "Undo", "Edit", lambda w: w.workspace.undo(), ("Ctrl+Z",), "undo",
+        enabled=lambda s: s.undo_name is not None,
+    ),
+    ActionSpec(
+        "redo", "Redo", "Edit", lambda w: w.workspace.redo(), ("Ctrl+Shift+Z", "Ctrl+Y"), "redo",
+        enabled=lambda s: s.redo_name is not None,
+    ),
+    ActionSpec(
+        "use-largest", "Use the largest piece", "Surface", lambda w: w.files.reopen_largest(),
+        tip="Open the same file again and keep its largest piece", enabled=_open,
+    ),
+    ActionSpec(
+        "select", "Select", "Singularities", lambda w: w.escape(),
+        ("Esc",), "select", "Select and drag singularities; elsewhere turn the view",
+        checked=lambda s: s.tool is None,
+    ),
+    *_tools(),
+    ActionSpec(
+        "add-any", "Add any valence", "Singularities", _any_tool, ("N",), "valence:n",
+        "Click on the surface places the valence chosen beside", _open, _is_any,
+    ),
+    ActionSpec(
+        "edit", "Change valence…", "Singularities",
+        partial(_with_selected, lambda w, i: w.singularities_panel.edit(i)),
+        ("Return", "Enter"),
+        tip="Type another valence; also a double click", enabled=_selected, separated=True,
+    ),
+    ActionSpec(
+        "raise", "Raise valence", "Singularities",
+        partial(_with_selected, lambda w, i: w.workspace.step_valence(i, 1)), ("+", "="), "plus",
+        "One more quad at the selected singularity; also the wheel over it", _selected,
+    ),
+    ActionSpec(
+        "lower", "Lower valence", "Singularities",
+        partial(_with_selected, lambda w, i: w.workspace.step_valence(i, -1)), ("-",), "minus",
+        "One quad fewer at the selected singularity; also the wheel over it",
+        _selected,
+    ),
+    ActionSpec(
+        "lock", "Locked", "Singularities",
+        partial(_with_selected, lambda w, i: w.workspace.toggle_lock(i)), ("L",), "lock",
+        "Keep the selected singularity where it is", _selected,
+        lambda s: s.selected is not None and s.singularities[s.selected].locked,
+    ),
+    ActionSpec(
+        "delete", "Delete", "Singularities",
+        partial(_with_selected, lambda w, i: w.workspace.remove(i)), ("Del", "Backspace"), "trash",
+        "Delete the selected singularity", _selected,
+    ),
+    ActionSpec(
+        "clear", "Delete all", "Singularities",
+        lambda w: w.workspace.remove(*range(len(w.workspace.state.singularities))),
+        tip="Delete every singularity", enabled=lambda s: len(s.singularities) > 0,
+    ),
+    ActionSpec(
+        "solve", "Solve", "Solve", lambda w: w.workspace.solving.solve(), ("F5",), "solve",
+        "Solve again with refinement at the singularities", _solvable,
+    ),
+    ActionSpec(
+        "stop", "Stop", "Solve", lambda w: w.workspace.solving.stop(), ("Shift+F5",), "stop",
+        "Stop the computation; the last field stays", lambda s: s.progress is not None,
+    ),
+    ActionSpec(
+        "fit", "Fit to window", "View", lambda w: w.viewport.fit(), ("F",), "fit",
+        "Show the whole surface", _open,
+    ),
+    *_views(),
+    *_layers(),
+    ActionSpec(
+        "dark", "Dark scene", "View",
+        lambda w: w.workspace.set(dark=not w.state.dark), checked=lambda s: s.dark,
+        separated=True,
+    ),
+    ActionSpec(
+        "palette", "Command palette…", "Help", lambda w: w.show_palette(), ("Ctrl+Shift+P",),
+        "search", "Find any action by name",
+    ),
+    ActionSpec(
+        "about", "About crossview", "Help", lambda w: w.show_about(), separated=True,
+    ),
+)  # fmt: skip
+
+TOOLBAR: tuple[str, ...] = (
+    "open", "|", "undo", "redo", "|", "select", "add-3", "add-5", "add-6", "add-8", "add-any",
+    "any-valence", "|", "solve", "stop", "->", "fit", "figure",
+)  # fmt: skip
+"""Names of actions; "|" is a line, "->" pushes the rest to the right."""
+
+LABELLED = ("open", "solve", "stop", "figure")
