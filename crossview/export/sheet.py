@@ -129,6 +129,7 @@ class Sheet:
             fontsize=size * self._points,
             horizontalalignment=align,
             verticalalignment="center_baseline",
+            parse_math=False,
             zorder=self._next(),
         )
 

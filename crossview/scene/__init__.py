@@ -12,6 +12,7 @@ Use::
     if scene.show(view):                                # only what changed is touched, in place
         plotter.render()
     view = view.with_layer("crosses", density=2.0)      # a slider in the Layers panel
+    scene.smooth(True); plotter.render()    # at rest, on a software renderer; off for a drag
     scene.remove()                          # takes every actor and observer back
 
 `SceneView` is one frozen value: data and per-layer settings. `Scene.show` compares it with the

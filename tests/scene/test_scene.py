@@ -199,6 +199,17 @@ class TestHowItChanges:
         stage.scene.show(replace(view, singularities=(Marker((0.0, 1.0, 0.0), 5),)))
         assert [mesh.GetMTime() for mesh in meshes] == before
 
+    def test_smoothing_blends_the_edges_and_can_be_taken_back(self, stage, near):
+        stage.scene.show(plate_view(["boundary", "surface"]))
+        stage.scene.fit("0.3,0.2,3,0,0,0,0.3,1,0")
+        plain = stage.pixels()
+        stage.scene.smooth(True)
+        smoothed = stage.pixels()
+        stage.scene.smooth(False)
+        shades = [len(np.unique(pixels.reshape(-1, 3), axis=0)) for pixels in (plain, smoothed)]
+        assert shades[1] > 3 * shades[0]
+        assert np.array_equal(stage.pixels(), plain)
+
     def test_the_colour_bar_stays_where_it_is(self, stage):
         stage.scene.show(ball_view().with_layer("H", value_range=(-1.0, 1.0)))
         stage.scene.fit()
