@@ -120,8 +120,13 @@ ACTIONS: tuple[ActionSpec, ...] = (
         enabled=lambda s: s.redo_name is not None,
     ),
     ActionSpec(
-        "use-largest", "Use the largest piece", "Surface", lambda w: w.files.reopen_largest(),
-        tip="Open the same file again and keep its largest piece", enabled=_open,
+        "use-largest", "Use the largest piece", "Surface", lambda w: w.files.reopen("largest"),
+        tip="Open the same again and keep its largest piece", enabled=_open,
+    ),
+    ActionSpec(
+        "repair", "Repair", "Surface", lambda w: w.files.reopen(repair=True),
+        tip="Open the same again; drop bad triangles, cut non-manifold places apart",
+        enabled=_open,
     ),
     ActionSpec(
         "select", "Select", "Singularities", lambda w: w.escape(),

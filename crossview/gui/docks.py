@@ -45,7 +45,7 @@ def size_docks(window: MainWindow) -> None:
         [docks["Surface"], docks["Layers"]], [LEFT_WIDTH, RIGHT_WIDTH], Qt.Orientation.Horizontal
     )
     for column, shares in (
-        (("Surface", "Singularities", "Validity"), (0.2, 0.45, 0.35)),
+        (("Surface", "Singularities", "Validity"), (0.24, 0.42, 0.34)),
         (("Layers", "Export"), (0.68, 0.32)),
     ):
         window.resizeDocks(

@@ -32,9 +32,9 @@ class Files:
         if Path(self._target).is_file():
             remember(self._target)
 
-    def reopen_largest(self) -> None:
-        """Open the same again and keep its largest piece."""
-        self._window.workspace.open(self._target, "largest")
+    def reopen(self, component: str | None = None, repair: bool = False) -> None:
+        """Open the same again with other choices."""
+        self._window.workspace.open(self._target, component, repair)
 
     def ask_open(self) -> None:
         """Ask for a surface or a case and open it."""

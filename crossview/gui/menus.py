@@ -43,6 +43,10 @@ class Menus:
             self._add(self._menus["Gallery"], name, partial(window.files.open, name))
         self._fill_view()
 
+    def menu(self, title: str) -> QMenu:
+        """Return the menu of this title."""
+        return self._menus[title]
+
     def titled_actions(self) -> list[tuple[str, QAction]]:
         """Return every action there is with its menu in its title, for the palette."""
         return [

@@ -57,21 +57,23 @@ class MessageBar(QFrame):
         close.clicked.connect(lambda: self._workspace.set(message=None))
         self.details = QPlainTextEdit()
         self.details.setReadOnly(True)
-        self.details.setFixedHeight(140)
-        self._buttons = QHBoxLayout()
-        self._buttons.setSpacing(6)
+        self.details.setFixedHeight(104)
         self.action_buttons: list[QPushButton] = []
         line = QHBoxLayout()
         line.setSpacing(8)
-        line.addWidget(self._icon)
+        top = Qt.AlignmentFlag.AlignTop
+        line.addWidget(self._icon, 0, top)
         line.addWidget(self.text, 1)
-        line.addLayout(self._buttons)
-        line.addWidget(self.details_button)
-        line.addWidget(self.copy_button)
-        line.addWidget(close)
+        line.addWidget(close, 0, top)
+        self._buttons = QHBoxLayout()
+        self._buttons.setSpacing(6)
+        self._buttons.addStretch()
+        self._buttons.addWidget(self.details_button)
+        self._buttons.addWidget(self.copy_button)
         self._layout = QVBoxLayout(self)
         self._layout.setContentsMargins(12, 8, 8, 8)
         self._layout.addLayout(line)
+        self._layout.addLayout(self._buttons)
         self._layout.addWidget(self.details)
         self.hide()
 
@@ -83,9 +85,8 @@ class MessageBar(QFrame):
     def place(self) -> None:
         """Keep to the top of the parent, as wide as it needs to be."""
         width = min(MOST_WIDTH, self._over.width() - 2 * MARGIN)
-        self.setFixedWidth(width)
-        height = self._layout.totalHeightForWidth(width)
-        self.setFixedHeight(max(height, self.minimumSizeHint().height()))
+        self._layout.activate()
+        self.resize(width, self._layout.totalHeightForWidth(width))
         self.move((self._over.width() - width) // 2, MARGIN)
 
     def copy(self) -> None:
@@ -99,11 +100,11 @@ class MessageBar(QFrame):
             return
         tint = TINTS[message.severity]
         self.setStyleSheet(
-            f"#message-bar {{ border: 1px solid {tint}; border-left: 4px solid {tint};"
-            " border-radius: 4px; }"
+            f"#message-bar {{ background: palette(base); border: 1px solid {tint};"
+            f" border-left: 4px solid {tint}; border-radius: 4px; }}"
         )
         self._icon.setPixmap(colored_icon(message.severity, tint).pixmap(QSize(20, 20)))
-        self.text.setText(message.text)
+        self.text.setText(message.text[:1].upper() + message.text[1:])
         self.details.setPlainText(message.details)
         self.details_button.setVisible(bool(message.details))
         self.copy_button.setVisible(bool(message.details))
@@ -119,7 +120,7 @@ class MessageBar(QFrame):
     def _action(self, label: str, run: Callable[[], None]) -> QPushButton:
         button = QPushButton(label)
         button.clicked.connect(lambda: run())
-        self._buttons.addWidget(button)
+        self._buttons.insertWidget(self._buttons.count() - 3, button)
         return button
 
     def _show_details(self, shown: bool) -> None:

@@ -4,18 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from PySide6.QtCore import QEvent, QObject, Qt
-from PySide6.QtGui import QAction, QKeyEvent
+from PySide6.QtCore import QEvent, QObject, QSize, Qt
+from PySide6.QtGui import QAction, QIcon, QKeyEvent, QPixmap
 from PySide6.QtWidgets import (
     QFrame,
+    QHeaderView,
     QLineEdit,
-    QListWidget,
-    QListWidgetItem,
+    QTreeWidget,
+    QTreeWidgetItem,
     QVBoxLayout,
     QWidget,
 )
 
-WIDTH, ROWS, ROW_HEIGHT = 460, 12, 28
+WIDTH, ROWS = 480, 14
+ROW, ICON = QSize(0, 26), QSize(16, 16)
 
 
 class Palette(QFrame):
@@ -24,15 +26,26 @@ class Palette(QFrame):
     def __init__(self, actions: Iterable[tuple[str, QAction]], parent: QWidget) -> None:
         super().__init__(parent, Qt.WindowType.Popup)
         self._over = parent
+        blank = QPixmap(ICON)
+        blank.fill(Qt.GlobalColor.transparent)
+        self._blank = QIcon(blank)  # so that all titles stand in line
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setFrameShape(QFrame.Shape.StyledPanel)
         self._actions = [(title, action) for title, action in actions if action.isEnabled()]
         self.search = QLineEdit()
         self.search.setPlaceholderText("Search actions")
         self.search.setClearButtonEnabled(True)
-        self.list = QListWidget()
+        self.list = QTreeWidget()
+        self.list.setColumnCount(2)
+        self.list.setHeaderHidden(True)
+        self.list.setRootIsDecorated(False)
+        self.list.setUniformRowHeights(True)
+        self.list.setIconSize(ICON)
         self.list.setFrameShape(QFrame.Shape.NoFrame)
-        self.list.setUniformItemSizes(True)
+        header = self.list.header()
+        header.setStretchLastSection(False)
+        header.setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
+        header.setSectionResizeMode(1, QHeaderView.ResizeMode.ResizeToContents)
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(8, 8, 8, 8)
@@ -43,7 +56,7 @@ class Palette(QFrame):
         self.search.installEventFilter(self)
         self.list.itemClicked.connect(lambda _: self.run())
         self._filter("")
-        self.resize(WIDTH, ROWS * ROW_HEIGHT + 60)
+        self.resize(WIDTH, ROWS * ROW.height() + 50)
 
     def popup(self) -> None:
         """Open in the upper middle of the parent."""
@@ -56,7 +69,7 @@ class Palette(QFrame):
         """Run the chosen action."""
         item = self.list.currentItem()
         if item is not None:
-            action = item.data(Qt.ItemDataRole.UserRole)
+            action = item.data(0, Qt.ItemDataRole.UserRole)
             self.close()
             action.trigger()
 
@@ -64,10 +77,22 @@ class Palette(QFrame):
         """Let the arrows move in the list while the field has the focus."""
         if isinstance(event, QKeyEvent) and event.type() == QEvent.Type.KeyPress:
             step = {Qt.Key.Key_Down: 1, Qt.Key.Key_Up: -1}.get(Qt.Key(event.key()))
-            if step is not None and self.list.count():
-                self.list.setCurrentRow((self.list.currentRow() + step) % self.list.count())
+            if step is not None:
+                self._step(step)
                 return True
         return super().eventFilter(watched, event)
+
+    def _step(self, step: int) -> None:
+        """Choose the item below or above, around the ends."""
+        present = self.list.currentItem()
+        if present is not None:
+            row = self.list.indexOfTopLevelItem(present) + step
+            self._choose(row % self.list.topLevelItemCount())
+
+    def _choose(self, row: int) -> None:
+        item = self.list.topLevelItem(row)
+        if item is not None:
+            self.list.setCurrentItem(item)
 
     def _filter(self, text: str) -> None:
         words = text.lower().split()
@@ -75,8 +100,8 @@ class Palette(QFrame):
         for title, action in self._actions:
             searched = f"{title} {action.toolTip()}".lower()
             if all(word in searched for word in words):
-                keys = action.shortcut().toString()
-                item = QListWidgetItem(action.icon(), f"{title}    {keys}" if keys else title)
-                item.setData(Qt.ItemDataRole.UserRole, action)
-                self.list.addItem(item)
-        self.list.setCurrentRow(0)
+                item = QTreeWidgetItem(self.list, [title, action.shortcut().toString()])
+                item.setIcon(0, action.icon() if not action.icon().isNull() else self._blank)
+                item.setSizeHint(0, ROW)
+                item.setData(0, Qt.ItemDataRole.UserRole, action)
+        self._choose(0)

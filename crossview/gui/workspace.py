@@ -8,7 +8,7 @@ from typing import Any
 from PySide6.QtCore import QObject, Signal
 
 from crossview.gui.solving import Solving
-from crossview.gui.state import Message, MessageAction
+from crossview.gui.state import MessageAction
 from crossview.gui.store import Store
 from crossview.gui.trials import Trials
 from crossview.session.commands import (
@@ -128,8 +128,6 @@ class Workspace(Store):
         self.clear_message("open")
         self._document_changed()
         self.opened.emit(document)
-        if document.problem.notes:
-            self.set(message=Message("; ".join(document.problem.notes), "edit", "info"))
 
     def _document_changed(self) -> None:
         """Bring everything in line with the present document of the history."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QFormLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFormLayout, QFrame, QLabel, QScrollArea, QVBoxLayout, QWidget
 
 from crossview.gui.panels.texts import count
 from crossview.gui.state import WindowState
@@ -13,8 +13,8 @@ from solvers.surface import TriSurface
 POOR_QUALITY = 0.1
 
 
-class SurfacePanel(QWidget):
-    """Shows the facts of the document's surface."""
+class SurfacePanel(QScrollArea):
+    """Shows the facts of the document's surface; scrolls where there are many notes."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -33,7 +33,14 @@ class SurfacePanel(QWidget):
         self._rows = [("Size", self.counts), ("Topology", self.topology), ("Quality", self.quality)]
         for title, label in self._rows:
             form.addRow(_faint(title), label)
-        layout = QVBoxLayout(self)
+        content = QWidget()
+        self.setWidget(content)
+        self.setWidgetResizable(True)
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        for area in (content, self.viewport()):
+            area.setAutoFillBackground(False)
+        layout = QVBoxLayout(content)
         layout.setContentsMargins(8, 8, 8, 8)
         layout.setSpacing(6)
         layout.addWidget(self.name)
@@ -67,7 +74,7 @@ class SurfacePanel(QWidget):
         text = f"mean {mean:.2f}, worst {worst:.2g}"
         self.quality.setText(text + (f"\n{count(poor, 'poor triangle')}" if poor else ""))
         self.quality.setToolTip("1 is an equilateral triangle, 0 a degenerate one")
-        self.notes.setText("\n".join(document.problem.notes))
+        self.notes.setText("\n".join(f"\u2022 {note}" for note in document.problem.notes))
 
 
 def _topology(surface: TriSurface) -> str:
