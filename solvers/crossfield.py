@@ -13,6 +13,22 @@ from solvers.surface import TriSurface
 from solvers.triangulation import FloatArray
 
 
+@dataclass(frozen=True)
+class Convergence:
+    """How an iteration for E = 0 went.
+
+    Parameters
+    ----------
+    energies : tuple of float
+        E at the start and after each iteration.
+    converged : bool
+        Whether the iteration reached its goal; if not, the field is the best iterate.
+    """
+
+    energies: tuple[float, ...] = ()
+    converged: bool = True
+
+
 @dataclass(frozen=True, eq=False)
 class CrossField:
     """A cross in each triangle of a surface.
@@ -40,6 +56,12 @@ class CrossField:
     max_closing_error : float
         Largest angle, over all edges, by which the crosses of two triangles fail to differ by
         whole quarter turns (and the defect of the handle loop, for edges on one), radians.
+    half_log_aspect : (m, 3) float array
+        (H2 - H1) / 2 at the corners of each triangle; 0 for one scale.
+    error_density : (m,) float array
+        rho1^2 + rho2^2 in each triangle (paper, equation intError).
+    convergence : Convergence
+        How the solver came to E.
     """
 
     surface: TriSurface
@@ -52,6 +74,44 @@ class CrossField:
     boundary_misalignment: FloatArray
     residual: float
     max_closing_error: float
+    half_log_aspect: FloatArray = field(repr=False)
+    error_density: FloatArray = field(repr=False)
+    convergence: Convergence
+
+    @cached_property
+    def H1(self) -> FloatArray:
+        """(m, 3) logarithm of the size along u at the corners of each triangle."""
+        return self.H[self.surface.faces] - self.half_log_aspect
+
+    @cached_property
+    def H2(self) -> FloatArray:
+        """(m, 3) logarithm of the size along v at the corners of each triangle."""
+        return self.H[self.surface.faces] + self.half_log_aspect
+
+    @cached_property
+    def log_aspect(self) -> FloatArray:
+        """(m,) |H2 - H1| at each barycentre."""
+        return np.abs(2 * self.half_log_aspect.mean(axis=1))
+
+    @cached_property
+    def aspect_roughness(self) -> float:
+        """The integral of |grad s|^2, s = (H2 - H1) / 2: unbounded under refinement if forced."""
+        t = self.surface.triangulation
+        return float(t.areas @ (t.gradients(self.half_log_aspect) ** 2).sum(axis=1))
+
+    @cached_property
+    def max_log_aspect(self) -> float:
+        """Largest |H2 - H1| away from the triangles around singularities."""
+        singular = np.zeros(self.surface.n_vertices, dtype=bool)
+        for s in self.singularities:
+            singular[self.surface.faces[s.point.face, int(np.argmax(s.point.barycentric))]] = True
+        away = ~singular[self.surface.faces].any(axis=1)
+        return float(self.log_aspect[away].max(initial=0.0))
+
+    @cached_property
+    def energy(self) -> float:
+        """The integrability error E (paper, equation intError)."""
+        return float(np.sqrt(self.surface.face_areas @ self.error_density))
 
     @cached_property
     def u(self) -> FloatArray:

@@ -111,8 +111,8 @@ class Holonomy:
         t = self._discretization.triangulation
         h = t.edge_halfedges
         after = next_halfedge(h)
-        values = self._corner_values.reshape(len(turns), -1)
+        values = self._corner_values.reshape(len(turns), len(t.twin))
         harmonic = values[:, after] - values[:, h]
         product = -(self._paths[:, h] * t.weights[h]) @ harmonic.T
         coefficients = np.linalg.solve(product, turns)
-        return np.asarray(np.einsum("c,cmi->mi", coefficients, self._corner_values))
+        return np.einsum("c,cmi->mi", coefficients, self._corner_values)

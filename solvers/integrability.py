@@ -5,9 +5,9 @@ In each triangle, with flat frame, u and v at the barycentre (paper, equation in
     rho1 = grad_u H2 - grad_v theta        rho2 = grad_v H1 + grad_u theta
     E^2 = sum of area (rho1^2 + rho2^2)
 
-Unknowns, all single-valued on the uncut surface: a = -(H1 + H2) / 2 at vertices; s = (H2 - H1) / 2 at
-vertices up to the sign of the sheet, for u and v swap over odd quarter turns; delta, the turn of
-the crosses against the initial field, at inner edge midpoints (Crouzeix-Raviart).
+Unknowns, all single-valued on the uncut surface: a = -(H1 + H2) / 2 at vertices; at vertices also
+s = (H2 - H1) / 2, up to the sign of the sheet, for u and v swap over odd quarter turns; and delta,
+the turn of the crosses against the initial field, at inner edge midpoints (Crouzeix-Raviart).
 """
 
 from __future__ import annotations
@@ -55,18 +55,39 @@ class Integrability:
         The surface.
     conjugate : (m, 3) float array
         Corner values of the (multiple-valued) function whose conjugate the initial field is.
+    quarter_turns : (3 m,) int array, optional
+        As the attribute; by default the nearest to the initial field's turns over each edge.
+
+    Attributes
+    ----------
+    theta : (m,) float array
+        The initial field at the barycentres, radians.
+    offsets : (m, 3) float array
+        How far it turns from there to the edge midpoints.
+    quarter_turns : (3 m,) int array
+        Quarter turns from the cross of each halfedge's triangle to that of its twin's.
+    sheet : (m, 3) int array
+        Sign of s at each corner, 0 where it vanishes.
+    assembly : ElementAssembly
+        Of the unknowns a, s and delta, in this order.
     """
 
-    def __init__(self, discretization: Discretization, conjugate: FloatArray) -> None:
+    def __init__(
+        self,
+        discretization: Discretization,
+        conjugate: FloatArray,
+        quarter_turns: IntArray | None = None,
+    ) -> None:
         self.discretization = discretization
         self.triangulation = t = discretization.triangulation
-        offsets = corner_midpoint_offsets(t.cotangents, conjugate)
-        self.theta = discretization.walk(offsets)
+        self.offsets = corner_midpoint_offsets(t.cotangents, conjugate)
+        self.theta = discretization.walk(self.offsets)
         gradient = t.gradients(conjugate)
         self._turning = np.stack([-gradient[:, 1], gradient[:, 0]], axis=1)
-        midpoint = np.repeat(self.theta, 3) + offsets.reshape(-1)
+        midpoint = np.repeat(self.theta, 3) + self.offsets.reshape(-1)
         across = np.where(t.twin >= 0, midpoint[t.twin] - t.transport, midpoint)
-        self.quarter_turns = np.rint((midpoint - across) / QUARTER).astype(np.int64)
+        nearest = np.rint((midpoint - across) / QUARTER).astype(np.int64)
+        self.quarter_turns = nearest if quarter_turns is None else quarter_turns
         self.sheet = _sheets(t.twin, self.quarter_turns).reshape(-1, 3)
         self.unknowns = self._number_unknowns()
         self.assembly = ElementAssembly(self.unknowns, int(self.unknowns.max()) + 1)
@@ -101,18 +122,33 @@ class Integrability:
         values = self.assembly.gathered(x)
         return values[:, :3], self.sheet * values[:, 3:6], values[:, 6:]
 
+    @property
+    def edge_gradients(self) -> FloatArray:
+        """(m, 3, 2) gradients of the Crouzeix-Raviart functions of each face's halfedges."""
+        # That of halfedge i is 1 - 2 times the hat function of corner i + 2.
+        return -2.0 * self.hat_gradients[:, [2, 0, 1]]
+
+    def crosses(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return u and v, (m, 2) each, at the barycentres in the frames of the triangles."""
+        angle = self.theta + self.local(x)[2].mean(axis=1)
+        u = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+        return u, np.stack([-u[:, 1], u[:, 0]], axis=1)
+
+    def frozen_turning(self, x: FloatArray) -> FloatArray:
+        """Return the (m, 2, 3) derivative of the scaled residual by delta, u and v frozen."""
+        u, v = self.crosses(x)
+        edge, scale = self.edge_gradients, np.sqrt(self.triangulation.areas)
+        both = [-np.einsum("md,mid->mi", v, edge), np.einsum("md,mid->mi", u, edge)]
+        return scale[:, None, None] * np.stack(both, axis=1)
+
     def residual(self, x: FloatArray) -> Residual:
         """Return the scaled residual and its derivative at the unknowns `x`."""
         a, s, delta = self.local(x)
-        hat = self.hat_gradients
-        # The edge function of halfedge i is 1 - 2 times the hat function of corner i + 2.
-        edge = -2.0 * hat[:, [2, 0, 1]]
+        hat, edge = self.hat_gradients, self.edge_gradients
         h1 = np.einsum("mi,mid->md", -a - s, hat)
         h2 = np.einsum("mi,mid->md", -a + s, hat)
         turning = self._turning + np.einsum("mi,mid->md", delta, edge)
-        angle = self.theta + delta.mean(axis=1)
-        u = np.stack([np.cos(angle), np.sin(angle)], axis=1)
-        v = np.stack([-u[:, 1], u[:, 0]], axis=1)
+        u, v = self.crosses(x)
         dot = lambda p, q: np.einsum("md,md->m", p, q)  # noqa: E731
         along = lambda w, g: np.einsum("md,mid->mi", w, g)  # noqa: E731
         rho = np.stack([dot(u, h2) - dot(v, turning), dot(v, h1) + dot(u, turning)], axis=1)

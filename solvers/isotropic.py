@@ -12,7 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
-from solvers.crossfield import CrossField
+from solvers.crossfield import Convergence, CrossField
 from solvers.cut_graph import cut_graph
 from solvers.discretization import QUARTER, Discretization
 from solvers.embedded import split_offsets
@@ -110,6 +110,9 @@ class IsotropicSolver:
             boundary_misalignment=d.boundary_misalignment(theta, offsets),
             residual=residual,
             max_closing_error=d.max_closing_error(theta, offsets, defects),
+            half_log_aspect=np.zeros((self.surface.n_faces, 3)),
+            error_density=np.zeros(self.surface.n_faces),
+            convergence=Convergence(),
         )
 
     def cut_graph(self, singularities: Sequence[Singularity]) -> IntArray:

@@ -1,0 +1,129 @@
+"""The field aligned with every boundary: theta imposed, integrable or not.
+
+The paper solves for theta with known values on all boundaries and known jumps over the cut (section
+"Local manifold basis generation and theta initialization"). The holonomy potentials already hold
+the answer: the harmonic correction that takes the defects to zero.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from solvers.crossfield import Convergence, CrossField
+from solvers.discretization import QUARTER
+from solvers.errors import CrossviewError
+from solvers.integrability import Integrability
+from solvers.isotropic import IsotropicSolver
+from solvers.singularities import Singularity
+from solvers.triangulation import FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class AlignedField:
+    """A boundary-aligned field, and the integrability problem around it.
+
+    Parameters
+    ----------
+    isotropic : CrossField
+        The isotropic field of the same configuration.
+    correction : (m, 3) float array
+        Corner values of the harmonic correction that aligns it.
+    integrability : Integrability
+        With the aligned field as its initial field.
+    """
+
+    isotropic: CrossField
+    correction: FloatArray
+    integrability: Integrability
+
+    def partly(self, fraction: float) -> Integrability:
+        """Return the problem around the field with only a fraction of the correction."""
+        i = self.integrability
+        conjugate = self.isotropic.H[i.triangulation.faces] + fraction * self.correction
+        return Integrability(i.discretization, conjugate, i.quarter_turns)
+
+    @property
+    def start(self) -> FloatArray:
+        """The unknowns of the aligned field with the isotropic size for both scales."""
+        x = np.zeros(self.integrability.assembly.n)
+        x[: len(self.isotropic.H)] = -self.isotropic.H
+        return x
+
+    def field(self, x: FloatArray, method: str, convergence: Convergence) -> CrossField:
+        """Return the unknowns of the integrability problem as a field.
+
+        Parameters
+        ----------
+        x : (N,) float array
+            Unknowns of `integrability`.
+        method : str
+            The solver's name.
+        convergence : Convergence
+            How it came to `x`.
+        """
+        i = self.integrability
+        d, t = i.discretization, i.triangulation
+        a, s, delta = i.local(x)
+        theta = i.theta + delta.mean(axis=1)
+        # The turning is affine in each triangle; its value at midpoints less the barycentre's.
+        offsets = i.offsets + delta - delta.mean(axis=1)[:, None]
+        density = (i.residual(x).values ** 2).sum(axis=1) / t.areas
+        h = -x[: t.n_vertices]
+        mean = -(t.areas @ a.mean(axis=1)) / t.areas.sum()
+        none = np.zeros(len(d.conditions))
+        return replace(
+            self.isotropic,
+            method=method,
+            H=h - mean,
+            theta=theta,
+            defects=d.defects(theta, offsets),
+            boundary_misalignment=d.boundary_misalignment(theta, offsets),
+            max_closing_error=d.max_closing_error(theta, offsets, none),
+            half_log_aspect=s,
+            error_density=density,
+            convergence=convergence,
+        )
+
+
+def aligned_field(
+    solver: IsotropicSolver,
+    singularities: Sequence[Singularity],
+    turns: Sequence[int] | None = None,
+) -> AlignedField:
+    """Align the field of a configuration with every boundary and handle.
+
+    Parameters
+    ----------
+    solver : IsotropicSolver
+        Made without flips, so that the field lives on the surface's own triangles.
+    singularities : sequence of Singularity
+        At vertices.
+    turns : sequence of int, optional
+        Quarter turns to add over each condition's path; by default none, which is the multiple
+        nearest to the isotropic rotation. Others are different layouts.
+
+    Returns
+    -------
+    AlignedField
+
+    Raises
+    ------
+    CrossviewError
+        If `turns` has the wrong length.
+    SingularityError
+        As `IsotropicSolver.solve`.
+    """
+    field = solver.solve(singularities)
+    extra = np.zeros(len(field.defects)) if turns is None else np.asarray(turns, dtype=float)
+    if extra.shape != field.defects.shape:
+        raise CrossviewError(
+            f"{extra.size} turns are given for {len(field.defects)} holonomy conditions",
+            "turns",
+            "give one whole number for each condition",
+        )
+    correction = solver.holonomy.harmonic_correction(QUARTER * extra - field.defects)
+    conjugate = field.H[solver.surface.faces] + correction
+    return AlignedField(field, correction, Integrability(solver.discretization, conjugate))

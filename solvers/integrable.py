@@ -1,0 +1,164 @@
+"""The anisotropic and the alternating field of a configuration, from start to verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from solvers.aligned import AlignedField
+from solvers.alternating import alternate
+from solvers.anisotropic import Iterate, MinimumNormNewton, NewtonStep
+from solvers.crossfield import Convergence, CrossField
+from solvers.errors import CrossviewError
+from solvers.progress import Progress
+from solvers.surface import TriSurface
+from solvers.triangulation import FloatArray
+
+LEFT_ALONE = 1e-9
+"""E at which the aligned field is integrable as it is."""
+
+HOMOTOPY_STAGES = (2, 4, 8)
+
+Iteration = Generator[Progress, None, Iterate]
+
+
+@dataclass(frozen=True)
+class FieldStep(Progress):
+    """An iteration, with the field as it is.
+
+    Parameters
+    ----------
+    stage, fraction
+        As in `Progress`.
+    energies : tuple of float
+        E so far.
+    field : callable
+        Makes the `CrossField` of this iteration.
+    """
+
+    energies: tuple[float, ...]
+    field: Callable[[], CrossField]
+
+
+def anisotropic_field(
+    aligned: AlignedField, sizes: FloatArray | None = None, *, smooth: bool = True
+) -> Generator[Progress, None, CrossField]:
+    """Find two scales and an angle with E = 0: Newton, homotopy where it fails, smoothing.
+
+    Parameters
+    ----------
+    aligned : AlignedField
+        Where to start; left alone if it is integrable already.
+    sizes : (n,) or (n, 2) float array, optional
+        Sizes to follow as closely as E = 0 allows: one for both branches, or one along the
+        branch nearer to the x axis and one along the other.
+    smooth : bool, optional
+        Whether to move along E = 0 to the smoothest scales.
+
+    Returns
+    -------
+    CrossField
+
+    Raises
+    ------
+    CrossviewError
+        If the sizes have the wrong length or are not positive and finite.
+    """
+    target = np.zeros((aligned.isotropic.surface.n_faces, 2, 3))
+    if sizes is not None:
+        target = _log_targets(aligned.isotropic, sizes)
+    integrated = yield from _shown(aligned, "anisotropic", _newton(aligned))
+    if (
+        smooth
+        and integrated.converged
+        and (sizes is not None or integrated.history[0] > LEFT_ALONE)
+    ):
+        newton = MinimumNormNewton(aligned.integrability)
+        smoothed = newton.slide(integrated.x, target)
+        integrated = yield from _shown(aligned, "anisotropic", smoothed, integrated.history)
+    convergence = Convergence(integrated.history, integrated.converged)
+    return aligned.field(integrated.x, "anisotropic", convergence)
+
+
+def alternating_field(
+    aligned: AlignedField, weight: float = 1.0
+) -> Generator[Progress, None, CrossField]:
+    """Minimise E by the paper's Algorithm 3.
+
+    Parameters
+    ----------
+    aligned : AlignedField
+        Where to start.
+    weight : float, optional
+        Of the proximal term; the paper's is 1.
+    """
+    end = yield from _shown(aligned, "alternating", alternate(aligned, weight))
+    return aligned.field(end.x, "alternating", Convergence(end.history, end.converged))
+
+
+def _newton(aligned: AlignedField) -> Iteration:
+    """Newton from the aligned field; if it stalls, from the isotropic one by stages."""
+    direct = yield from MinimumNormNewton(aligned.integrability).solve(aligned.start)
+    if direct.converged:
+        return direct
+    for stages in HOMOTOPY_STAGES:
+        x = aligned.start
+        for stage in range(1, stages):
+            partly = MinimumNormNewton(aligned.partly(stage / stages))
+            x = (yield from partly.solve(x)).x
+        last = yield from MinimumNormNewton(aligned.integrability).solve(x)
+        if last.converged:
+            return Iterate(last.x, direct.history + last.history, True)
+    return direct
+
+
+def _shown(
+    aligned: AlignedField, method: str, iteration: Iteration, before: tuple[float, ...] = ()
+) -> Iteration:
+    """Run an iteration, showing each step as a field."""
+    energies = list(before)
+    while True:
+        try:
+            step = next(iteration)
+        except StopIteration as stop:
+            end: Iterate = stop.value
+            return end
+        if isinstance(step, NewtonStep):
+            energies.append(step.energy)
+            so_far = Convergence(tuple(energies), converged=False)
+
+            def field(x: FloatArray = step.x, so_far: Convergence = so_far) -> CrossField:
+                return aligned.field(x, method, so_far)
+
+            yield FieldStep(step.stage, step.fraction, so_far.energies, field)
+
+
+def _log_targets(field: CrossField, sizes: npt.ArrayLike) -> FloatArray:
+    """Return the (m, 2, 3) logarithms of the sizes along u and v at the corners."""
+    values = _checked_sizes(field.surface, sizes)
+    corners = np.log(values)[field.surface.faces].transpose(0, 2, 1)
+    swapped = np.abs(field.u[:, 0]) < np.abs(field.v[:, 0])
+    return np.where(swapped[:, None, None], corners[:, ::-1], corners)
+
+
+def _checked_sizes(surface: TriSurface, sizes: npt.ArrayLike) -> FloatArray:
+    values = np.asarray(sizes, dtype=np.float64)
+    if values.ndim == 1:
+        values = np.stack([values, values], axis=1)
+    if values.shape != (surface.n_vertices, 2):
+        raise CrossviewError(
+            f"the size map has {len(values)} rows for {surface.n_vertices} vertices",
+            "sizes",
+            "give one or two sizes for each vertex",
+        )
+    bad = np.flatnonzero(~(np.isfinite(values) & (values > 0)).all(axis=1))
+    if len(bad):
+        raise CrossviewError(
+            f"{len(bad)} sizes are not positive and finite",
+            f"the first at vertex {bad[0]}",
+            "mend the size map",
+        )
+    return values
