@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from solvers.discretization import QUARTER
 from solvers.errors import CrossviewError
 from solvers.integrability import Integrability
 from solvers.isotropic import IsotropicSolver
+from solvers.seamless import SeamlessMap, seamless_map
 from solvers.singularities import Singularity
 from solvers.triangulation import FloatArray
 
@@ -52,19 +54,37 @@ class AlignedField:
         x[: len(self.isotropic.H)] = -self.isotropic.H
         return x
 
-    def field(self, x: FloatArray, method: str, convergence: Convergence) -> CrossField:
-        """Return the unknowns of the integrability problem as a field.
 
-        Parameters
-        ----------
-        x : (N,) float array
-            Unknowns of `integrability`.
-        method : str
-            The solver's name.
-        convergence : Convergence
-            How it came to `x`.
-        """
-        i = self.integrability
+@dataclass(frozen=True, eq=False)
+class IntegratedField:
+    """A point of the integrability problem around an aligned field: the field itself, or solved.
+
+    Parameters
+    ----------
+    aligned : AlignedField
+        The problem.
+    x : (N,) float array
+        Its unknowns.
+    method : str
+        The solver's name.
+    convergence : Convergence
+        How it came to `x`.
+    """
+
+    aligned: AlignedField
+    x: FloatArray
+    method: str = "aligned"
+    convergence: Convergence = Convergence()
+
+    @cached_property
+    def seamless_map(self) -> SeamlessMap:
+        """The seamless map nearest to the field."""
+        return seamless_map(self.aligned.integrability, self.x)
+
+    @cached_property
+    def field(self) -> CrossField:
+        """The crosses, sizes and errors."""
+        i, x = self.aligned.integrability, self.x
         d, t = i.discretization, i.triangulation
         a, s, delta = i.local(x)
         theta = i.theta + delta.mean(axis=1)
@@ -75,8 +95,8 @@ class AlignedField:
         mean = -(t.areas @ a.mean(axis=1)) / t.areas.sum()
         none = np.zeros(len(d.conditions))
         return replace(
-            self.isotropic,
-            method=method,
+            self.aligned.isotropic,
+            method=self.method,
             H=h - mean,
             theta=theta,
             defects=d.defects(theta, offsets),
@@ -84,7 +104,7 @@ class AlignedField:
             max_closing_error=d.max_closing_error(theta, offsets, none),
             half_log_aspect=s,
             error_density=density,
-            convergence=convergence,
+            convergence=self.convergence,
         )
 
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator
+from collections.abc import Generator
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
-from solvers.aligned import AlignedField
+from solvers.aligned import AlignedField, IntegratedField
 from solvers.alternating import alternate
 from solvers.anisotropic import Iterate, MinimumNormNewton, NewtonStep
 from solvers.crossfield import Convergence, CrossField
@@ -35,17 +35,17 @@ class FieldStep(Progress):
         As in `Progress`.
     energies : tuple of float
         E so far.
-    field : callable
-        Makes the `CrossField` of this iteration.
+    so_far : IntegratedField
+        The field of this iteration, not converged; its parts are computed when asked for.
     """
 
     energies: tuple[float, ...]
-    field: Callable[[], CrossField]
+    so_far: IntegratedField
 
 
 def anisotropic_field(
     aligned: AlignedField, sizes: FloatArray | None = None, *, smooth: bool = True
-) -> Generator[Progress, None, CrossField]:
+) -> Generator[Progress, None, IntegratedField]:
     """Find two scales and an angle with E = 0: Newton, homotopy where it fails, smoothing.
 
     Parameters
@@ -60,7 +60,7 @@ def anisotropic_field(
 
     Returns
     -------
-    CrossField
+    IntegratedField
 
     Raises
     ------
@@ -80,12 +80,12 @@ def anisotropic_field(
         smoothed = newton.slide(integrated.x, target)
         integrated = yield from _shown(aligned, "anisotropic", smoothed, integrated.history)
     convergence = Convergence(integrated.history, integrated.converged)
-    return aligned.field(integrated.x, "anisotropic", convergence)
+    return IntegratedField(aligned, integrated.x, "anisotropic", convergence)
 
 
 def alternating_field(
     aligned: AlignedField, weight: float = 1.0
-) -> Generator[Progress, None, CrossField]:
+) -> Generator[Progress, None, IntegratedField]:
     """Minimise E by the paper's Algorithm 3.
 
     Parameters
@@ -96,7 +96,8 @@ def alternating_field(
         Of the proximal term; the paper's is 1.
     """
     end = yield from _shown(aligned, "alternating", alternate(aligned, weight))
-    return aligned.field(end.x, "alternating", Convergence(end.history, end.converged))
+    convergence = Convergence(end.history, end.converged)
+    return IntegratedField(aligned, end.x, "alternating", convergence)
 
 
 def _newton(aligned: AlignedField) -> Iteration:
@@ -128,12 +129,9 @@ def _shown(
             return end
         if isinstance(step, NewtonStep):
             energies.append(step.energy)
-            so_far = Convergence(tuple(energies), converged=False)
-
-            def field(x: FloatArray = step.x, so_far: Convergence = so_far) -> CrossField:
-                return aligned.field(x, method, so_far)
-
-            yield FieldStep(step.stage, step.fraction, so_far.energies, field)
+            convergence = Convergence(tuple(energies), converged=False)
+            so_far = IntegratedField(aligned, step.x, method, convergence)
+            yield FieldStep(step.stage, step.fraction, convergence.energies, so_far)
 
 
 def _log_targets(field: CrossField, sizes: npt.ArrayLike) -> FloatArray:

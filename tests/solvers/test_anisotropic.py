@@ -3,16 +3,15 @@
 import numpy as np
 import pytest
 
-from solvers.aligned import AlignedField, aligned_field
+from solvers.aligned import AlignedField, IntegratedField, aligned_field
 from solvers.alternating import alternate
 from solvers.anisotropic import MinimumNormNewton
-from solvers.crossfield import Convergence, CrossField
+from solvers.crossfield import CrossField
 from solvers.errors import CrossviewError
 from solvers.integrable import FieldStep, alternating_field, anisotropic_field
 from solvers.isotropic import IsotropicSolver
 from solvers.primitives import BUILTIN
 from solvers.progress import run
-from solvers.seamless import seamless_map
 from solvers.singularities import Singularity, default_corners
 from solvers.surface import TriSurface
 from solvers.triangulation import wrap
@@ -49,7 +48,7 @@ def apart(surface: TriSurface, seed: int, valences: list[int], gap: float) -> li
 def test_the_aligned_field_is_aligned_everywhere(name: str) -> None:
     surface = SURFACES[name]()
     start = aligned(surface, random_configuration(surface, seed=4))
-    field = start.field(start.start, "aligned", Convergence())
+    field = IntegratedField(start, start.start).field
     assert np.abs(start.isotropic.defects).max() > 0.01
     assert np.abs(field.defects).max() < 1e-9
     assert np.abs(field.boundary_misalignment).max(initial=0) < 1e-9
@@ -62,7 +61,7 @@ def test_the_energy_of_the_aligned_field_is_that_of_its_harmonic_correction() ->
     start = aligned(surface, apart(surface, 1, [3, 5] * 4, 0.15))
     defect = start.isotropic.defects[0]
     expected = abs(defect) / np.sqrt(np.log(1 / 0.4) / (2 * np.pi))
-    field = start.field(start.start, "aligned", Convergence())
+    field = IntegratedField(start, start.start).field
     assert field.energy == pytest.approx(expected, rel=2e-3)
 
 
@@ -73,7 +72,7 @@ def test_other_turns_are_other_aligned_fields() -> None:
     energies = []
     for turns in ([-1], [0], [1]):
         start = aligned_field(solver, configuration, turns)
-        field = start.field(start.start, "aligned", Convergence())
+        field = IntegratedField(start, start.start).field
         assert np.abs(field.boundary_misalignment).max() < 1e-9
         energies.append(field.energy)
     assert energies[1] < min(energies[0], energies[2])
@@ -146,7 +145,7 @@ def test_the_last_newton_steps_are_quadratic() -> None:
 
 def test_a_square_keeps_its_constant_field() -> None:
     surface = BUILTIN["square"](n=16)
-    field = run(anisotropic_field(aligned(surface, [])))
+    field = run(anisotropic_field(aligned(surface, []))).field
     assert field.energy < 1e-10
     assert max(np.abs(field.H1).max(), np.abs(field.H2).max()) < 1e-8
 
@@ -155,7 +154,7 @@ def test_a_square_keeps_its_constant_field() -> None:
 def test_a_valid_isotropic_field_is_left_alone(name: str) -> None:
     surface = SURFACES[name]()
     start = aligned(surface, random_configuration(surface, seed=1))
-    field = run(anisotropic_field(start))
+    field = run(anisotropic_field(start)).field
     assert field.convergence.energies[0] < 1e-9
     assert np.abs(field.half_log_aspect).max() == 0
     assert np.abs(field.H - start.isotropic.H).max() < 1e-12
@@ -164,7 +163,7 @@ def test_a_valid_isotropic_field_is_left_alone(name: str) -> None:
 def solved(name: str, seed: int = 4) -> tuple[AlignedField, CrossField]:
     surface = SURFACES[name]()
     start = aligned(surface, random_configuration(surface, seed))
-    return start, run(anisotropic_field(start))
+    return start, run(anisotropic_field(start)).field
 
 
 @pytest.mark.parametrize("name", DISTORTED)
@@ -180,8 +179,8 @@ def test_the_anisotropic_field_is_aligned_integrable_and_keeps_its_indices(name:
 def test_smoothing_lowers_the_regulariser_and_stays_integrable() -> None:
     surface = SURFACES["annulus"]()
     start = aligned(surface, random_configuration(surface, seed=4))
-    rough = run(anisotropic_field(start, smooth=False))
-    smooth = run(anisotropic_field(start))
+    rough = run(anisotropic_field(start, smooth=False)).field
+    smooth = run(anisotropic_field(start)).field
 
     def regulariser(field: CrossField) -> float:
         t = surface.triangulation
@@ -199,7 +198,7 @@ def test_sizes_follow_the_map_where_nothing_hinders() -> None:
     surface = BUILTIN["square"](n=16)
     x, y, _ = surface.vertices.T
     sizes = np.exp(np.stack([0.5 * np.sin(3 * x), 0.7 * y], axis=1))
-    field = run(anisotropic_field(aligned(surface, []), sizes))
+    field = run(anisotropic_field(aligned(surface, []), sizes)).field
     along_x = np.abs(field.u[:, 0]) > 0.5
     found = np.where(along_x[:, None], field.H1, field.H2)
     other = np.where(along_x[:, None], field.H2, field.H1)
@@ -221,7 +220,7 @@ def test_bad_size_maps_are_refused(sizes: np.ndarray, message: str) -> None:
     surface = BUILTIN["square"](n=16)
     assert surface.n_vertices == 289
     with pytest.raises(CrossviewError, match=message):
-        run(anisotropic_field(aligned(surface, []), sizes))
+        run(anisotropic_field(aligned(surface, []), sizes)).field
 
 
 def test_the_papers_alternation_falls_steadily_and_stalls_far_from_validity() -> None:
@@ -241,7 +240,7 @@ def test_each_step_can_be_shown_as_a_field() -> None:
         run(solver, steps.append)
         shown.append(next(s for s in steps if isinstance(s, FieldStep)))
     for step in shown:
-        field = step.field()
+        field = step.so_far.field
         assert field.energy == pytest.approx(step.energies[-1], rel=1e-6)
         assert not field.convergence.converged
 
@@ -251,8 +250,7 @@ def test_the_seamless_map_closes_without_flips(name: str) -> None:
     surface = SURFACES[name]()
     valences = [s.valence for s in random_configuration(surface, 0, pairs=1)]
     start = aligned(surface, apart(surface, 2, valences, 0.25))
-    newton = MinimumNormNewton(start.integrability)
-    mapped = seamless_map(start.integrability, run(newton.solve(start.start)).x)
+    mapped = run(anisotropic_field(start)).seamless_map
     assert len(mapped.flipped) == 0
     assert mapped.distance < 0.05
     assert np.abs(mapped.images.sum(axis=1)).max() < 1e-9
@@ -266,7 +264,7 @@ def test_the_seamless_map_closes_without_flips(name: str) -> None:
 def test_the_impossible_torus_is_called_impossible() -> None:
     surface = BUILTIN["torus"](n=36)
     start = aligned(surface, at_vertices(surface, [100, 500], [3, 5]))
-    field = run(anisotropic_field(start))
+    field = run(anisotropic_field(start)).field
     verdict = judge(field, flips=0)
     assert verdict.status == "impossible"
     assert "torus" in verdict.reason
@@ -280,7 +278,7 @@ def test_verdicts_name_their_reason() -> None:
     unaligned = judge(start.isotropic, flips=0)
     assert unaligned.status == "impossible"
     assert f"{np.degrees(np.abs(start.isotropic.defects[0])):.3g} degrees" in unaligned.reason
-    merely_aligned = start.field(start.start, "aligned", Convergence())
+    merely_aligned = IntegratedField(start, start.start).field
     assert "not integrable" in judge(merely_aligned, flips=0).reason
 
 
@@ -297,8 +295,8 @@ def test_the_solution_does_not_depend_on_the_frames(name: str) -> None:
     turned = np.take_along_axis(surface.faces[rows], (np.arange(3) + roll[:, None]) % 3, axis=1)
     other = TriSurface(surface.vertices, turned)
     again = at_vertices(other, vertices, [s.valence for s in configuration])
-    first = run(anisotropic_field(aligned(surface, configuration)))
-    second = run(anisotropic_field(aligned(other, again)))
+    first = run(anisotropic_field(aligned(surface, configuration))).field
+    second = run(anisotropic_field(aligned(other, again))).field
     assert np.abs(first.H - second.H).max() < 1e-6
     across = np.einsum("ij,ij->i", first.v[rows], second.u)
     along = np.einsum("ij,ij->i", first.u[rows], second.u)
