@@ -23,6 +23,10 @@ from solvers.singularities import Singularity
 from solvers.triangulation import FloatArray
 
 
+AS_IT_IS = Convergence()
+"""Of a field that no iteration changed."""
+
+
 @dataclass(frozen=True, eq=False)
 class AlignedField:
     """A boundary-aligned field, and the integrability problem around it.
@@ -74,7 +78,7 @@ class IntegratedField:
     aligned: AlignedField
     x: FloatArray
     method: str = "aligned"
-    convergence: Convergence = Convergence()
+    convergence: Convergence = AS_IT_IS
 
     @cached_property
     def seamless_map(self) -> SeamlessMap:

@@ -220,7 +220,7 @@ def test_bad_size_maps_are_refused(sizes: np.ndarray, message: str) -> None:
     surface = BUILTIN["square"](n=16)
     assert surface.n_vertices == 289
     with pytest.raises(CrossviewError, match=message):
-        run(anisotropic_field(aligned(surface, []), sizes)).field
+        run(anisotropic_field(aligned(surface, []), sizes))
 
 
 def test_the_papers_alternation_falls_steadily_and_stalls_far_from_validity() -> None:
