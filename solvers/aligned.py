@@ -22,7 +22,6 @@ from solvers.seamless import SeamlessMap, seamless_map
 from solvers.singularities import Singularity
 from solvers.triangulation import FloatArray
 
-
 AS_IT_IS = Convergence()
 """Of a field that no iteration changed."""
 
