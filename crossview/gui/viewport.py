@@ -10,6 +10,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -31,6 +32,8 @@ from crossview.scene.singularities import marker_radius
 
 LATE_MS = 80
 """How long a dragged singularity waits to be drawn together with its field."""
+REST_MS = 300
+"""How long nothing may move before a smooth picture is drawn on a software renderer."""
 TITLE_PIXELS, BESIDE_TITLE = 17, 130
 """Height of the title's letters; pixels beside it that the axes need."""
 REACH = 7.0
@@ -52,7 +55,8 @@ class Viewport(QWidget):
     def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._workspace = workspace
-        samples = 1 if software_renderer() else 4
+        self._software = software_renderer()
+        samples = 1 if self._software else 4
         self.plotter = QtInteractor(self, auto_update=False, multi_samples=samples)
         self.plotter.setAcceptDrops(False)
         layout = QVBoxLayout(self)
@@ -65,10 +69,9 @@ class Viewport(QWidget):
         self._held_range: tuple[float, float] | None = None
         self._started = 0.0
         self._fitted: str | None = "auto"  # the preset view, until the user turns it
-        self._late = QTimer(self)
-        self._late.setSingleShot(True)
-        self._late.setInterval(LATE_MS)
-        self._late.timeout.connect(self._draw)
+        self._late = self._timer(LATE_MS, self._draw)
+        self._rest = self._timer(REST_MS, self._smooth)
+        self._resting = False
         window = self.plotter.render_window
         self._observers = [
             window.AddObserver("StartEvent", self._frame_started),
@@ -94,7 +97,27 @@ class Viewport(QWidget):
     def _draw(self) -> None:
         view = scene_view(self._workspace.state, self._held_range)
         if self.scene.show(replace(view, title=self._elided(view.title))):
-            self.plotter.update()
+            self._update()
+
+    def _update(self) -> None:
+        """Ask for one frame, fast; a smooth one follows when nothing moves any more."""
+        if self._software:
+            self._resting = False
+            self.scene.smooth(False)
+            self._rest.start()
+        self.plotter.update()
+
+    def _smooth(self) -> None:
+        self._resting = True
+        self.scene.smooth(True)
+        self.plotter.update()
+
+    def _timer(self, milliseconds: int, run: Callable[[], None]) -> QTimer:
+        timer = QTimer(self)
+        timer.setSingleShot(True)
+        timer.setInterval(milliseconds)
+        timer.timeout.connect(run)
+        return timer
 
     def _elided(self, title: str) -> str:
         font = QFont()
@@ -110,7 +133,7 @@ class Viewport(QWidget):
         """Look from one of the scene's preset directions, filling the room there is."""
         self._fitted = camera
         self.scene.fit(camera, all_texts=True)
-        self.plotter.update()
+        self._update()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Fill the new room, unless the user has chosen a view."""
@@ -176,12 +199,13 @@ class Viewport(QWidget):
                 handlers[event.type()](event)
         finally:
             interactor.EnableRenderOn()
-        self.plotter.update()
+        self._update()
         return True
 
     def close_plotter(self) -> None:
         """Free what VTK holds; the widget draws no more."""
         self._late.stop()
+        self._rest.stop()
         self.plotter.removeEventFilter(self.mouse)
         for tag in self._observers:
             self.plotter.render_window.RemoveObserver(tag)
@@ -196,4 +220,5 @@ class Viewport(QWidget):
         self._started = time.perf_counter()
 
     def _frame_ended(self, *_: object) -> None:
-        self.frame_drawn.emit(1000.0 * (time.perf_counter() - self._started))
+        if not self._resting:
+            self.frame_drawn.emit(1000.0 * (time.perf_counter() - self._started))
