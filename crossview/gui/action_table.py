@@ -104,7 +104,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ),
     ActionSpec(
         "figure", "Figure…", "File", lambda w: w.files.ask_figure(), ("Ctrl+E",), "figure",
-        "Write what is shown as a PNG, with the settings of the Export panel", _open,
+        "Write what is shown as PNG, SVG or PDF, with the settings of the Export panel", _open,
         separated=True,
     ),
     ActionSpec(

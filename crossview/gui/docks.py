@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from crossview.gui.main_window import MainWindow
 
 LEFT, RIGHT = Qt.DockWidgetArea.LeftDockWidgetArea, Qt.DockWidgetArea.RightDockWidgetArea
-LEFT_WIDTH, RIGHT_WIDTH = 300, 232
+LEFT_WIDTH, RIGHT_WIDTH = 316, 232
 LEFT_LEAST, RIGHT_LEAST = 272, 208
 
 

@@ -7,12 +7,17 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtWidgets import QFileDialog
 
+from crossview.export.figures import render_view
 from crossview.gui.recent import remember
+from crossview.gui.scene_view import figure_view
 from crossview.io import SUFFIXES
 from crossview.session.document import Document
 
 if TYPE_CHECKING:
     from crossview.gui.main_window import MainWindow
+
+FIGURES = "PNG picture (*.png);;SVG drawing (*.svg);;PDF drawing (*.pdf)"
+SAID_MS = 4000
 
 
 class Files:
@@ -65,16 +70,27 @@ class Files:
     def ask_figure(self) -> None:
         """Ask where to write the figure, and write it."""
         path, _ = QFileDialog.getSaveFileName(
-            self._window, "Export the figure", self._suggested(".png"), "Pictures (*.png)"
+            self._window, "Export the figure", self._suggested(".png"), FIGURES
         )
         if path:
             self.export(Path(path))
 
     def export(self, path: Path) -> None:
-        """Write what is shown as a PNG with the settings of the Export panel."""
+        """Write what is shown, as it is seen, with the settings of the Export panel."""
         window = self._window
         settings = window.export_panel.settings
-        window.workspace.attempt("export", lambda: window.viewport.export(path, settings))
+
+        def write() -> None:
+            render_view(
+                figure_view(window.state, settings),
+                path,
+                size=settings.size,
+                scale=settings.scale,
+                camera=window.viewport.scene.camera,
+            )
+            window.statusBar().showMessage(f"Wrote {path}", SAID_MS)
+
+        window.workspace.attempt("export", write)
 
     def _folder(self) -> str:
         return str(Path(self._target).parent) if Path(self._target).is_file() else str(Path.home())

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
+from crossview.gui.figure_settings import FigureSettings
 from crossview.gui.state import WindowState
 from crossview.scene import LayerSettings, Marker, SceneView
 from crossview.scene.view import Background
@@ -47,6 +48,12 @@ def scene_view(state: WindowState, held_range: Range | None = None) -> SceneView
         background=background,
         layers=_layers(state.layers, held_range),
     )
+
+
+def figure_view(state: WindowState, settings: FigureSettings) -> SceneView:
+    """Return what to draw in a figure: what is shown, without what only helps to edit."""
+    view = scene_view(replace(state, trial=None, selected=None, condition=None))
+    return replace(view, background="transparent") if settings.transparent else view
 
 
 def _preview(state: WindowState, surface: TriSurface) -> Marker | None:

@@ -12,7 +12,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt, QTimer, Signal
@@ -20,8 +19,6 @@ from PySide6.QtGui import QFont, QFontMetrics, QMouseEvent, QResizeEvent, QWheel
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 from pyvistaqt import QtInteractor
 
-from crossview.export.figures import render_view
-from crossview.gui.figure_settings import FigureSettings
 from crossview.gui.mouse import Mouse
 from crossview.gui.picking import Pick, Picker, Place
 from crossview.gui.scene_view import scene_view
@@ -141,18 +138,6 @@ class Viewport(QWidget):
         if self._fitted is not None:
             self.look_from(self._fitted)
         self._draw()
-
-    def export(self, path: Path, settings: FigureSettings) -> None:
-        """Write what is shown, seen from here, as a PNG."""
-        view = scene_view(self._workspace.state)
-        view = replace(
-            view,
-            preview=None,
-            singularities=tuple(replace(m, selected=False) for m in view.singularities),
-            background="transparent" if settings.transparent else view.background,
-        )
-        camera = self.scene.camera
-        render_view(view, path, size=settings.size, scale=settings.scale, camera=camera)
 
     def pick(self, place: QPointF) -> Pick | None:
         """Return the point of the surface under a place of the widget."""

@@ -33,7 +33,7 @@ class ExportPanel(QWidget):
         self.transparent_box = QCheckBox("Transparent background")
         self.result = QLabel()
         self.result.setForegroundRole(self.palette().ColorRole.PlaceholderText)
-        self.button = QPushButton(export.icon(), "Export PNG…")
+        self.button = QPushButton(export.icon(), "Export figure…")
         self.button.clicked.connect(export.trigger)
         export.enabledChanged.connect(self.button.setEnabled)
         self.button.setEnabled(export.isEnabled())

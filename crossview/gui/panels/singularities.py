@@ -108,7 +108,7 @@ class SingularitiesPanel(QWidget):
         header.setMinimumSectionSize(24)
         header.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
         header.setSectionResizeMode(POSITION, QHeaderView.ResizeMode.Stretch)
-        for column, width in enumerate((44, 54, 44, 100, 26)):
+        for column, width in enumerate((42, 52, 42, 100, 26)):
             table.setColumnWidth(column, width)
         table.clicked.connect(self._clicked)
         table.selectionModel().currentRowChanged.connect(self._current_changed)
