@@ -16,6 +16,7 @@ from crossview.case_parts import (
     PlacedCorner,
     PlacedSingularity,
     Position,
+    Sizes,
     check_method,
 )
 from crossview.case_reading import read_case
@@ -31,6 +32,7 @@ __all__ = [
     "PlacedCorner",
     "PlacedSingularity",
     "Position",
+    "Sizes",
     "check_method",
 ]
 
@@ -101,6 +103,8 @@ class Case:
             for f in fields(Options)
             if getattr(self.options, f.name) != getattr(default, f.name)
         }
+        if isinstance(self.options.sizes, str):
+            data["options"]["sizes"] = _relative(self.options.sizes, Path(base))
         return data
 
     def save(self, path: str | Path) -> None:
@@ -117,9 +121,9 @@ class Case:
             (staging / path.name).write_text(text, encoding="utf-8")
 
 
-def _relative(surface: str, base: Path) -> str:
-    """`surface` as named from the folder `base`, with forward slashes."""
+def _relative(file: str, base: Path) -> str:
+    """`file` as named from the folder `base`, with forward slashes."""
     try:
-        return Path(os.path.relpath(surface, base)).as_posix()
+        return Path(os.path.relpath(file, base)).as_posix()
     except ValueError:  # another drive: there is no relative path
-        return Path(surface).absolute().as_posix()
+        return Path(file).absolute().as_posix()

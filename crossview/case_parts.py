@@ -6,10 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from crossview.jsonfield import CaseError
+from crossview.jsonfield import CaseError, nearest
 
-METHODS = ("isotropic",)
+METHODS = ("isotropic", "aligned", "anisotropic", "alternating")
 """The methods there are, the default first."""
+
+Sizes = str | tuple[float, ...] | tuple[tuple[float, float], ...]
+"""A size map: its file, or a size or a pair of sizes for each vertex."""
 
 Position = tuple[float, float, float]
 
@@ -55,12 +58,27 @@ class Options:
     repair : bool
         Also make repairs that change the surface: drop degenerate and duplicate triangles, cut
         non-manifold edges and vertices apart.
+    turns : tuple of int, or None
+        Quarter turns that the aligned field makes over each holonomy condition besides those
+        nearest to the isotropic field; other numbers are other layouts. For all methods but the
+        isotropic.
+    proximal_weight : float
+        Weight of the proximal term of the alternating method; the paper's is 1.
+    sizes : str, tuple or None
+        Size map that the anisotropic method follows as closely as the singularities allow: a
+        .npy or .txt file, or a size or a pair of sizes for each vertex of the surface given.
+    verify : bool
+        Solve again on a once refined mesh, and judge by how much the aspect grows.
     """
 
     tolerance_degrees: float = 0.01
     refine: int = 3
     component: int | str | None = None
     repair: bool = False
+    turns: tuple[int, ...] | None = None
+    proximal_weight: float = 1.0
+    sizes: Sizes | None = None
+    verify: bool = False
 
 
 def check_method(name: str, where: str) -> str:
@@ -69,10 +87,8 @@ def check_method(name: str, where: str) -> str:
     Raises
     ------
     CaseError
-        It is not; the message lists those that are.
+        It is not; the message names the nearest, or lists those that are.
     """
     if name not in METHODS:
-        raise CaseError(
-            f'the method "{name}" is not available', where, "available: " + ", ".join(METHODS)
-        )
+        raise CaseError(f'unknown method "{name}"', where, nearest(name, METHODS))
     return name

@@ -4,11 +4,18 @@ from __future__ import annotations
 
 import inspect
 import os
-from dataclasses import fields
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from crossview.case_parts import Builtin, Options, PlacedCorner, PlacedSingularity, check_method
+from crossview.case_parts import (
+    Builtin,
+    Options,
+    PlacedCorner,
+    PlacedSingularity,
+    Sizes,
+    check_method,
+)
 from crossview.jsonfield import JsonField, nearest
 from solvers.primitives import BUILTIN
 
@@ -33,7 +40,7 @@ def read_case(root: JsonField, base: Path) -> dict[str, Any]:
     if "method" in members:
         case["method"] = check_method(members["method"].text(), members["method"].where)
     if "options" in members:
-        case["options"] = _options(members["options"])
+        case["options"] = _options(members["options"], base)
     if "title" in members:
         case["title"] = members["title"].text()
     return case
@@ -87,20 +94,34 @@ def _corners(entry: JsonField) -> tuple[PlacedCorner, ...] | None:
     return tuple(corners)
 
 
-def _options(entry: JsonField) -> Options:
-    members = entry.object([], [f.name for f in fields(Options)])
-    options: dict[str, Any] = {}
-    if (tolerance := members.get("tolerance_degrees")) is not None:
-        options["tolerance_degrees"] = tolerance.number()
-        if not 0 < options["tolerance_degrees"] <= 45:
-            raise tolerance.error("the tolerance must be above 0 and at most 45 degrees")
-    if (refine := members.get("refine")) is not None:
-        options["refine"] = refine.integer("refine", least=0, most=MOST_REFINE)
-    if (component := members.get("component")) is not None:
-        options["component"] = _component(component)
-    if (repair := members.get("repair")) is not None:
-        options["repair"] = repair.boolean()
-    return Options(**options)
+def _options(entry: JsonField, base: Path) -> Options:
+    read: dict[str, Callable[[JsonField], object]] = {
+        "tolerance_degrees": _tolerance,
+        "refine": lambda given: given.integer("refine", least=0, most=MOST_REFINE),
+        "component": _component,
+        "repair": JsonField.boolean,
+        "turns": lambda given: tuple(turn.integer("each turn") for turn in given.items()),
+        "proximal_weight": _weight,
+        "sizes": lambda given: _sizes(given, base),
+        "verify": JsonField.boolean,
+    }
+    members = entry.object([], read)
+    values: dict[str, Any] = {name: read[name](given) for name, given in members.items()}
+    return Options(**values)
+
+
+def _tolerance(entry: JsonField) -> float:
+    tolerance = entry.number()
+    if not 0 < tolerance <= 45:
+        raise entry.error("the tolerance must be above 0 and at most 45 degrees")
+    return tolerance
+
+
+def _weight(entry: JsonField) -> float:
+    weight = entry.number()
+    if weight <= 0:
+        raise entry.error("the proximal weight must be above 0")
+    return weight
 
 
 def _component(entry: JsonField) -> int | str:
@@ -110,3 +131,23 @@ def _component(entry: JsonField) -> int | str:
         remedy = 'write "largest", "all" or a number (0 is the largest)'
         raise entry.error(f'unknown component "{entry.value}"', remedy)
     return entry.value
+
+
+def _sizes(entry: JsonField, base: Path) -> Sizes:
+    """A file relative to `base`, or sizes or pairs of sizes, all positive."""
+    if isinstance(entry.value, str):
+        path = base / entry.text()
+        if path.suffix.lower() not in (".npy", ".txt"):
+            raise entry.error("a size map is a .npy or a .txt file")
+        return os.path.normpath(path)
+    items = entry.items()
+    if any(isinstance(item.value, list) for item in items):
+        return tuple((_size(a), _size(b)) for a, b in (item.items(2) for item in items))
+    return tuple(_size(item) for item in items)
+
+
+def _size(entry: JsonField) -> float:
+    size = entry.number()
+    if size <= 0:
+        raise entry.error("a size must be above 0")
+    return size

@@ -3,121 +3,133 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Generator, Iterator, Mapping
+from collections.abc import Generator, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import replace
+from typing import TypeVar
 
 import numpy as np
 
 from crossview.case import Case
+from crossview.methods import growth_when_refined, integrate, verdict_on
 from crossview.problem import Problem, problems_of
+from crossview.sizes import read_sizes, refined_sizes
+from crossview.solution import Solution, Stage
+from solvers.aligned import IntegratedField
 from solvers.crossfield import CrossField
-from solvers.errors import SingularityError
-from solvers.isotropic import IsotropicSolver
+from solvers.errors import CrossviewError, SingularityError
+from solvers.integrable import FieldStep
 from solvers.progress import Progress
-from solvers.refinement import Refinement, refine_at
-from solvers.singularities import Singularity, index_budget
-from solvers.surface import TriSurface
-from solvers.triangulation import FloatArray, IntArray
+from solvers.refinement import refine_at
+from solvers.singularities import index_budget
+from solvers.triangulation import FloatArray
 
+__all__ = ["Pipeline", "Solution", "solve_case"]
 
-@dataclass(frozen=True, eq=False)
-class Solution:
-    """A solved problem.
-
-    Attributes
-    ----------
-    problem : Problem
-    refinement : Refinement
-        The surface solved on: refined around the singularities, which are vertices of it.
-    solver : IsotropicSolver
-        Keeps the factorisation of that surface.
-    singularities : tuple of Singularity
-        On the refined surface, in the order of the problem's.
-    field : CrossField
-    holonomy_defects : (2 g + max(b - 1, 0),) float array
-        Radians in (-pi/4, pi/4], in the order of ``solver.holonomy.conditions``.
-    seconds : mapping of str to float
-        Time of each stage; next to nothing for one that was kept.
-    """
-
-    problem: Problem
-    refinement: Refinement
-    solver: IsotropicSolver
-    singularities: tuple[Singularity, ...]
-    field: CrossField
-    holonomy_defects: FloatArray
-    seconds: Mapping[str, float]
-
-    @property
-    def surface(self) -> TriSurface:
-        """The refined surface that was solved on."""
-        return self.refinement.surface
-
-    @cached_property
-    def cut_graph(self) -> IntArray:
-        """(k, 2) vertex pairs of `surface` that cut it to a disk and meet every singularity."""
-        return self.solver.cut_graph(self.singularities)
-
-    @property
-    def valid(self) -> bool:
-        """Whether every holonomy defect is below the tolerance (the budget holds if solved)."""
-        tolerance = np.radians(self.problem.options.tolerance_degrees)
-        return bool((np.abs(self.holonomy_defects) < tolerance).all())
+T = TypeVar("T")
+Solving = Generator[Progress, None, Solution]
 
 
 class Pipeline:
     """Solves problems one after the other and keeps what the next one can use."""
 
     def __init__(self) -> None:
-        self._last: Solution | None = None
+        self._stage: Stage | None = None
+        self._problem: Problem | None = None
+        self._kept: dict[str, Solution] = {}
+        self._sizes: FloatArray | None = None
 
-    def solve(self, problem: Problem) -> Generator[Progress, None, Solution]:
-        """Solve in stages; refined surface and factor are kept while only valences change.
+    def solve(self, problem: Problem) -> Solving:
+        """Solve in stages; refined surface and factors are kept while only valences change.
+
+        The last solution by each method is kept too while nothing else changes. The methods that
+        iterate yield a `FieldStep` for each iteration.
 
         Raises
         ------
-        SingularityError
-            The index budget is missed, a singularity is on the boundary, or two coincide.
+        CrossviewError
+            The index budget is missed, a singularity is on the boundary, two coincide, the turns
+            are too many or too few, or the size map is wrong.
         """
         _require_budget(problem)
+        wanted = problem.options.sizes if problem.method == "anisotropic" else None
+        sizes = None if wanted is None else read_sizes(wanted, problem.surface.n_vertices)
+        kept = self._kept_by(problem, sizes)
+        if kept is not None:
+            self._problem = problem
+            return replace(kept, problem=problem)
         seconds: dict[str, float] = {}
-        kept = self._kept(problem)
         yield Progress("refining at the singularities", 0.0)
         with _timed(seconds, "refine"):
-            refinement = kept.refinement if kept else _refined(problem)
+            stage = self._prepared(problem)
         yield Progress("factorising", 0.1)
+        isotropic = problem.method == "isotropic"
         with _timed(seconds, "factor"):
-            # refinement keeps the numbers of vertices, so the corners stay where they are
-            solver = (
-                kept.solver if kept else IsotropicSolver(refinement.surface, problem.chosen_corners)
-            )
-        yield Progress("solving", 0.6)
-        with _timed(seconds, "solve"):
-            singularities = tuple(
-                replace(s, point=refinement.surface.point_at_vertex(int(vertex)))
-                for s, vertex in zip(problem.singularities, refinement.vertices, strict=True)
-            )
-            field = solver.solve(singularities)
-        yield Progress("checking the holonomy", 0.8)
-        with _timed(seconds, "holonomy"):
-            defects = solver.holonomy.defects(singularities)
-        self._last = Solution(problem, refinement, solver, singularities, field, defects, seconds)
-        return self._last
+            solver = stage.solver(flips=isotropic)
+        if isotropic:
+            yield Progress("solving", 0.6)
+            with _timed(seconds, "solve"):
+                field = solver.solve(stage.placed(problem))
+            yield Progress("checking the holonomy", 0.8)
+            solution = _solution(stage, problem, field, seconds)
+        else:
+            finer = None if sizes is None else refined_sizes(sizes, stage.refinement)
+            solution = yield from _integrated(stage, problem, finer, seconds)
+        self._kept[problem.method] = solution
+        return solution
 
-    def _kept(self, problem: Problem) -> Solution | None:
-        """The last solution if its refined surface and factor serve this problem too."""
-        if self._last is None:
+    def so_far(self, step: FieldStep) -> Solution:
+        """A solution, not converged, of an iteration that the running `solve` has shown.
+
+        Raises
+        ------
+        CrossviewError
+            There has been none.
+        """
+        if self._stage is None or self._problem is None:
+            raise CrossviewError("nothing has been solved yet")
+        return _solution(self._stage, self._problem, step.so_far, {})
+
+    def _kept_by(self, problem: Problem, sizes: FloatArray | None) -> Solution | None:
+        """The last solution of this very problem by its method."""
+        kept = self._kept.get(problem.method)
+        if kept is None or not _same_but_method(kept.problem, problem):
             return None
-        before = self._last.problem
-        same = (
-            before.surface is problem.surface
-            and before.options.refine == problem.options.refine
-            and [s.point for s in before.singularities] == [s.point for s in problem.singularities]
-            and before.chosen_corners == problem.chosen_corners
-        )
-        return self._last if same else None
+        if sizes is None:
+            return kept
+        before, self._sizes = self._sizes, sizes
+        return kept if before is not None and np.array_equal(before, sizes) else None
+
+    def _prepared(self, problem: Problem) -> Stage:
+        """The stage for a problem, the last one if it serves; forgets what has become wrong."""
+        before, self._problem = self._problem, problem
+        if self._stage is None or not self._stage.serves(problem):
+            points = [s.point for s in problem.singularities]
+            refinement = refine_at(problem.surface, points, problem.options.refine)
+            self._stage = Stage(problem, refinement)
+        if before is None or not _same_but_method(before, problem):
+            self._kept = {}
+        return self._stage
+
+
+def _integrated(
+    stage: Stage, problem: Problem, sizes: FloatArray | None, seconds: dict[str, float]
+) -> Solving:
+    """Solve by a method that starts from the aligned field."""
+    yield Progress("aligning with the boundaries", 0.2)
+    options = problem.options
+    with _timed(seconds, "align"):
+        aligned = stage.aligned(problem)
+    iteration = integrate(problem.method, aligned, options, sizes)
+    with _timed(seconds, "solve"):
+        integrated = yield from _between(iteration, 0.3, 0.6 if options.verify else 0.9)
+    growth = None
+    if options.verify and problem.method != "aligned":
+        with _timed(seconds, "verify"):
+            again = growth_when_refined(integrated, options, sizes)
+            growth = yield from _between(again, 0.6, 0.9)
+    yield Progress("judging", 0.9)
+    return _solution(stage, problem, integrated, seconds, growth)
 
 
 def solve_case(case: Case) -> Generator[Progress, None, tuple[Solution, ...]]:
@@ -139,6 +151,46 @@ def solve_case(case: Case) -> Generator[Progress, None, tuple[Solution, ...]]:
     return tuple(solutions)
 
 
+def _solution(
+    stage: Stage,
+    problem: Problem,
+    found: CrossField | IntegratedField,
+    seconds: dict[str, float],
+    growth: float | None = None,
+) -> Solution:
+    """Put together what a method found with the holonomy and the verdict."""
+    integrated = found if isinstance(found, IntegratedField) else None
+    field = found if isinstance(found, CrossField) else found.field
+    solver = stage.solver(flips=integrated is None)
+    singularities = stage.placed(problem)
+    with _timed(seconds, "holonomy"):
+        defects = solver.holonomy.defects(singularities)
+    with _timed(seconds, "verdict"):
+        tolerance = problem.options.tolerance_degrees
+        verdict = verdict_on(field, integrated, growth, tolerance)
+    return Solution(
+        problem,
+        stage.refinement,
+        solver,
+        singularities,
+        field,
+        defects,
+        seconds,
+        integrated,
+        verdict,
+        growth,
+    )
+
+
+def _same_but_method(one: Problem, other: Problem) -> bool:
+    return (
+        one.surface is other.surface
+        and one.singularities == other.singularities
+        and one.chosen_corners == other.chosen_corners
+        and one.options == other.options
+    )
+
+
 def _require_budget(problem: Problem) -> None:
     """Refuse a missed index budget before anything is computed."""
     budget = index_budget(problem.surface, problem.singularities, problem.chosen_corners)
@@ -149,9 +201,19 @@ def _require_budget(problem: Problem) -> None:
         )
 
 
-def _refined(problem: Problem) -> Refinement:
-    points = [s.point for s in problem.singularities]
-    return refine_at(problem.surface, points, problem.options.refine)
+def _between(
+    computation: Generator[Progress, None, T], start: float, end: float
+) -> Generator[Progress, None, T]:
+    """The same computation, its progress from `start` to `end` and never back."""
+    reached = start
+    while True:
+        try:
+            step = next(computation)
+        except StopIteration as stop:
+            result: T = stop.value
+            return result
+        reached = max(reached, start + (end - start) * step.fraction)
+        yield replace(step, fraction=reached)
 
 
 @contextmanager

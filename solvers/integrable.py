@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Generator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -77,8 +77,9 @@ def anisotropic_field(
         and (sizes is not None or integrated.history[0] > LEFT_ALONE)
     ):
         newton = MinimumNormNewton(aligned.integrability)
-        smoothed = newton.slide(integrated.x, target)
-        integrated = yield from _shown(aligned, "anisotropic", smoothed, integrated.history)
+        smoothing = newton.slide(integrated.x, target)
+        smoothed = yield from _shown(aligned, "anisotropic", smoothing, integrated.history)
+        integrated = replace(smoothed, history=integrated.history + smoothed.history)
     convergence = Convergence(integrated.history, integrated.converged)
     return IntegratedField(aligned, integrated.x, "anisotropic", convergence)
 

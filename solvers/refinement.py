@@ -18,8 +18,11 @@ from solvers.points import SurfacePoint
 from solvers.surface import TriSurface, barycentric
 from solvers.triangulation import FloatArray, IntArray
 
-SNAP = 1e-9
-"""Barycentric weight below which a point counts as on the edge or vertex it is next to."""
+SNAP = 1e-6
+"""Distance from an edge or vertex, in edge lengths, below which a point is moved onto it.
+
+Nearer ones would make triangles too flat for their angles to be known in double precision.
+"""
 
 RINGS = 2
 """How many rings of triangles around a point are split at each level."""
@@ -79,6 +82,20 @@ def refine_at(surface: TriSurface, points: Sequence[SurfacePoint], levels: int =
     return Refinement(surface, refined, inserted, mesh.parent)
 
 
+def refine_everywhere(surface: TriSurface) -> Refinement:
+    """Return the surface with every triangle split in four at its edges' midpoints.
+
+    Parameters
+    ----------
+    surface : TriSurface
+        What to refine; its vertices keep their numbers.
+    """
+    mesh = _Mesh(surface, [])
+    mesh.split_in_four(np.arange(surface.n_faces))
+    refined = TriSurface(mesh.vertices, mesh.faces, trusted=True)
+    return Refinement(surface, refined, np.empty(0, dtype=np.int64), mesh.parent)
+
+
 class _Mesh:
     """The arrays while they change, and where the points are among them."""
 
@@ -120,13 +137,15 @@ class _Mesh:
 
     def insert(self, i: int) -> int:
         """Make a vertex of point i and return its number."""
-        face, weights = self.at[i], self.weights[i]
+        face = self.at[i]
         corners = self.faces[face]
-        if weights.max() >= 1 - SNAP:
+        weights = _snapped(self.weights[i], self.vertices[corners])
+        if weights.max() == 1:
             return int(corners[np.argmax(weights)])
         new = len(self.vertices)
-        self.vertices = np.concatenate([self.vertices, self.positions[i][None]])
-        if weights.min() > SNAP:
+        position = self.positions[i] if weights.all() else weights @ self.vertices[corners]
+        self.vertices = np.concatenate([self.vertices, position[None]])
+        if weights.all():
             a, b, c = corners
             self._replace(
                 np.array([face]),
@@ -216,6 +235,22 @@ def _subdivided(
             pieces.append(np.stack(part, axis=1)[chosen])
             whole.append(rows[chosen])
     return np.concatenate(pieces), np.concatenate(whole)
+
+
+def _snapped(weights: FloatArray, corners: FloatArray) -> FloatArray:
+    """Return the weights of a point of a triangle (3, 3), 0 for sides that it is next to."""
+    sides = corners[[2, 0, 1]] - corners[[1, 2, 0]]  # opposite each corner
+    double_area = np.linalg.norm(np.cross(sides[0], sides[1]))
+    distance = weights * double_area / (sides**2).sum(axis=1)
+    nearest = int(np.argmin(distance))
+    if distance[nearest] > SNAP:
+        return weights
+    tail, head = (nearest + 1) % 3, (nearest + 2) % 3
+    along = ((weights @ corners - corners[tail]) @ sides[nearest]) / (sides[nearest] ** 2).sum()
+    along = 0.0 if along < SNAP else 1.0 if along > 1 - SNAP else along
+    on_side = np.zeros(3)
+    on_side[tail], on_side[head] = 1 - along, along
+    return on_side
 
 
 def _surface_point(face: int, weights: FloatArray) -> SurfacePoint:

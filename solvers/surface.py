@@ -241,8 +241,8 @@ def barycentric(triangles: FloatArray, position: FloatArray) -> FloatArray:
     ----------
     triangles : (k, 3, 3) float array
         Corners.
-    position : (3,) float array
-        The place.
+    position : (3,) or (k, 3) float array
+        The place, or one for each triangle.
 
     Returns
     -------

@@ -36,7 +36,7 @@ class Verdict:
 
 
 def judge(
-    field: CrossField, flips: int, growth: float | None = None, tolerance: float = 1.75e-4
+    field: CrossField, flips: int | None, growth: float | None = None, tolerance: float = 1.75e-4
 ) -> Verdict:
     """Judge a field by topology, alignment, integrability, flips, aspect and growth.
 
@@ -44,8 +44,8 @@ def judge(
     ----------
     field : CrossField
         What to judge.
-    flips : int
-        Triangles turned over in its seamless map.
+    flips : int or None
+        Triangles turned over in its seamless map; None where there is no such map.
     growth : float, optional
         int |grad s|^2 on a once refined mesh over that of the field.
     tolerance : float, optional
@@ -73,7 +73,7 @@ def judge(
     return _judge_aligned(field, flips, growth)
 
 
-def _judge_aligned(field: CrossField, flips: int, growth: float | None) -> Verdict:
+def _judge_aligned(field: CrossField, flips: int | None, growth: float | None) -> Verdict:
     if field.energy > INTEGRABLE:
         return Verdict(
             "suspect", f"The field is aligned but not integrable: E = {field.energy:.2g}."
@@ -88,4 +88,5 @@ def _judge_aligned(field: CrossField, flips: int, growth: float | None) -> Verdi
             "suspect",
             f"The aspect does not settle: int |grad s|^2 grows by {growth - 1:.0%} when refined.",
         )
-    return Verdict("valid", "The field is aligned and integrable, and its map has no flip.")
+    mapped = "" if flips is None else ", and its map has no flip"
+    return Verdict("valid", f"The field is aligned and integrable{mapped}.")

@@ -18,7 +18,16 @@ FULL = {
     ],
     "corners": [{"position": [1, 0, 0], "index": 1}],
     "method": "isotropic",
-    "options": {"tolerance_degrees": 0.5, "refine": 0, "component": 1, "repair": True},
+    "options": {
+        "tolerance_degrees": 0.5,
+        "refine": 0,
+        "component": 1,
+        "repair": True,
+        "turns": [0, -1],
+        "proximal_weight": 0.001,
+        "sizes": [[1, 2], [1.5, 0.5]],
+        "verify": True,
+    },
 }
 
 
@@ -32,7 +41,7 @@ def test_reads_every_key():
         ),
         (PlacedCorner((1.0, 0.0, 0.0), 1),),
         "isotropic",
-        Options(0.5, 0, 1, True),
+        Options(0.5, 0, 1, True, (0, -1), 0.001, sizes=((1.0, 2.0), (1.5, 0.5)), verify=True),
         "An annulus",
     )
 
@@ -48,12 +57,15 @@ def test_saved_and_loaded_is_the_same(tmp_path, data):
 def test_a_surface_file_is_relative_to_its_case(tmp_path):
     (tmp_path / "cases").mkdir()
     path = tmp_path / "cases" / "a.json"
-    path.write_text('{"surface": "../meshes/a.obj"}')
+    path.write_text('{"surface": "../meshes/a.obj", "options": {"sizes": "a.npy"}}')
     case = Case.load(path)
     assert case.surface == str(tmp_path / "meshes" / "a.obj")
+    assert case.options.sizes == str(tmp_path / "cases" / "a.npy")
     # the file moves, what it names does not
     case.save(tmp_path / "b.json")
-    assert json.loads((tmp_path / "b.json").read_text())["surface"] == "meshes/a.obj"
+    saved = json.loads((tmp_path / "b.json").read_text())
+    assert saved["surface"] == "meshes/a.obj"
+    assert saved["options"]["sizes"] == "cases/a.npy"
     assert Case.load(tmp_path / "b.json") == case
 
 
@@ -88,7 +100,15 @@ def test_a_file_called_like_a_builtin_is_the_file(tmp_path):
         ({"singularities": [{"position": [0] * 3, "valence": 3, "locked": 1}]}, "true or false"),
         ({"corners": "automatic"}, 'unknown corners "automatic".*write "auto" or a list'),
         ({"corners": [{"position": [0, 0, 0], "index": 2}]}, r"at most 1.*corners\[0\]\.index"),
-        ({"method": "anisotropic"}, '"anisotropic" is not available.*available: isotropic'),
+        ({"method": "anistropic"}, 'unknown method "anistropic".*method.*mean "anisotropic"'),
+        ({"options": {"turns": 1}}, r"expected a list.*options\.turns"),
+        ({"options": {"turns": [0, 0.5]}}, r"whole number, found 0\.5.*turns\[1\]"),
+        ({"options": {"proximal_weight": 0}}, "weight must be above 0.*proximal_weight"),
+        ({"options": {"sizes": "sizes.csv"}}, r"\.npy or a \.txt.*options\.sizes"),
+        ({"options": {"sizes": [1, -1]}}, r"above 0.*sizes\[1\]"),
+        ({"options": {"sizes": [[1, 2], 3]}}, r"list of 2 numbers, found 3.*sizes\[1\]"),
+        ({"options": {"sizes": [1, float("inf")]}}, r"finite.*sizes\[1\]"),
+        ({"options": {"verify": 1}}, r"true or false.*options\.verify"),
         ({"options": {"refine": -1}}, "at least 0, found -1.*options.refine"),
         ({"options": {"tolerance_degrees": 0}}, "tolerance.*options.tolerance_degrees"),
         ({"options": {"component": "biggest"}}, '"biggest".*write "largest", "all" or a number'),

@@ -87,7 +87,7 @@ def test_progress_grows_and_names_its_stages():
     fractions = [step.fraction for step in steps]
     assert fractions == sorted(fractions)
     assert steps[0].stage == "reading the surface"
-    assert list(solution.seconds) == ["read", "refine", "factor", "solve", "holonomy"]
+    assert list(solution.seconds) == ["read", "refine", "factor", "solve", "holonomy", "verdict"]
 
 
 def test_a_problem_becomes_the_case_it_came_from():

@@ -1,0 +1,135 @@
+"""A solved problem, and what is shared by the methods that may solve it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from crossview.problem import Problem
+from solvers.aligned import AlignedField, IntegratedField, aligned_field
+from solvers.crossfield import CrossField
+from solvers.isotropic import IsotropicSolver
+from solvers.refinement import Refinement
+from solvers.singularities import Singularity
+from solvers.surface import TriSurface
+from solvers.triangulation import FloatArray, IntArray
+from solvers.verdict import Verdict
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """A solved problem.
+
+    Attributes
+    ----------
+    problem : Problem
+    refinement : Refinement
+        The surface solved on: refined around the singularities, which are vertices of it.
+    solver : IsotropicSolver
+        Keeps the factorisation of that surface.
+    singularities : tuple of Singularity
+        On the refined surface, in the order of the problem's.
+    field : CrossField
+    holonomy_defects : (2 g + max(b - 1, 0),) float array
+        Of the isotropic field of the same configuration, whatever the method; radians in
+        (-pi/4, pi/4], in the order of ``solver.holonomy.conditions``.
+    seconds : mapping of str to float
+        Time of each stage; next to nothing for one that was kept.
+    integrated : IntegratedField, or None
+        The field with its seamless map; None for the isotropic method.
+    verdict : Verdict
+    growth : float, or None
+        Of int |grad s|^2 on a once refined mesh; None if not asked for.
+    """
+
+    problem: Problem
+    refinement: Refinement
+    solver: IsotropicSolver
+    singularities: tuple[Singularity, ...]
+    field: CrossField
+    holonomy_defects: FloatArray
+    seconds: Mapping[str, float]
+    integrated: IntegratedField | None
+    verdict: Verdict
+    growth: float | None = None
+
+    @property
+    def surface(self) -> TriSurface:
+        """The refined surface that was solved on."""
+        return self.refinement.surface
+
+    @cached_property
+    def cut_graph(self) -> IntArray:
+        """(k, 2) vertex pairs of `surface` that cut it to a disk and meet every singularity."""
+        return self.solver.cut_graph(self.singularities)
+
+    @property
+    def valid(self) -> bool:
+        """Whether every holonomy defect is below the tolerance (the budget holds if solved)."""
+        tolerance = np.radians(self.problem.options.tolerance_degrees)
+        return bool((np.abs(self.holonomy_defects) < tolerance).all())
+
+    @property
+    def flips(self) -> int | None:
+        """Triangles turned over in the seamless map; None where it was not made."""
+        made = self.integrated is not None and "seamless_map" in vars(self.integrated)
+        return len(self.integrated.seamless_map.flipped) if self.integrated and made else None
+
+
+class Stage:
+    """A refined surface with its factors and its last aligned field, kept between solves.
+
+    Parameters
+    ----------
+    problem : Problem
+        Whose places are refined at.
+    refinement : Refinement
+        Of the problem's surface.
+    """
+
+    def __init__(self, problem: Problem, refinement: Refinement) -> None:
+        self.problem = problem
+        self.refinement = refinement
+        self._solvers: dict[bool, IsotropicSolver] = {}
+        self._aligned: dict[object, AlignedField] = {}
+
+    def serves(self, problem: Problem) -> bool:
+        """Whether the problem has the same places on the same surface."""
+        before = self.problem
+        return (
+            before.surface is problem.surface
+            and before.options.refine == problem.options.refine
+            and [s.point for s in before.singularities] == [s.point for s in problem.singularities]
+            and before.chosen_corners == problem.chosen_corners
+        )
+
+    def solver(self, flips: bool) -> IsotropicSolver:
+        """The factored surface, flipped to Delaunay or with its own triangles."""
+        if flips not in self._solvers:
+            # refinement keeps the numbers of vertices, so the corners stay where they are
+            made = IsotropicSolver(
+                self.refinement.surface, self.problem.chosen_corners, flips=flips
+            )
+            self._solvers[flips] = made
+            if made.discretization.delaunay.n_flips == 0:  # the two are the same then
+                self._solvers[False] = made
+        return self._solvers[flips]
+
+    def placed(self, problem: Problem) -> tuple[Singularity, ...]:
+        """The singularities of a problem that is served, at the vertices made for them."""
+        surface, vertices = self.refinement.surface, self.refinement.vertices
+        return tuple(
+            replace(s, point=surface.point_at_vertex(int(vertex)))
+            for s, vertex in zip(problem.singularities, vertices, strict=True)
+        )
+
+    def aligned(self, problem: Problem) -> AlignedField:
+        """The aligned field of a problem that is served."""
+        singularities, turns = self.placed(problem), problem.options.turns
+        if (singularities, turns) not in self._aligned:
+            field = aligned_field(self.solver(flips=False), singularities, turns)
+            self._aligned = {(singularities, turns): field}
+        return self._aligned[singularities, turns]
