@@ -18,7 +18,7 @@ from solvers.points import SurfacePoint
 from solvers.surface import TriSurface, barycentric
 from solvers.triangulation import FloatArray, IntArray
 
-SNAP = 1e-6
+SNAP = 1e-5
 """Distance from an edge or vertex, in edge lengths, below which a point is moved onto it.
 
 Nearer ones would make triangles too flat for their angles to be known in double precision.

@@ -108,3 +108,31 @@ def test_the_field_next_to_a_singularity_gets_better_with_refinement() -> None:
         errors.append(np.abs(found - exact / 4 + level).max())
     assert errors[1] < 0.5 * errors[0]
     assert errors[2] < 0.5 * errors[1]
+
+
+@pytest.mark.parametrize("gap", [1e-4, 1e-6, 1e-8, 1e-10])
+@pytest.mark.parametrize("levels", [0, 2])
+def test_points_next_to_edges_vertices_and_each_other_leave_a_surface_to_solve_on(
+    gap: float, levels: int
+) -> None:
+    surface = BUILTIN["sphere"](subdivisions=1)
+    points = [
+        SurfacePoint(3, (0.4, 0.6 - gap, gap)),
+        SurfacePoint(3, (0.3, 0.2, 0.5)),
+        SurfacePoint(40, (gap, 1 - 3 * gap, 2 * gap)),
+        SurfacePoint(40, (0.2, 0.4, 0.4)),
+        SurfacePoint(60, (0.3, 0.3, 0.4)),
+        SurfacePoint(60, (0.3 + 30 * gap, 0.3, 0.4 - 30 * gap)),
+    ]
+    points = points[:5] if gap < 1e-6 else points  # nearer ones become one point
+    refinement = refine_at(surface, points, levels)
+    refined = refinement.surface
+    TriSurface(refined.vertices, refined.faces)
+    assert refined.area == pytest.approx(surface.area, rel=1e-12)
+    moved = refined.vertices[refinement.vertices] - surface.positions(points)
+    assert np.linalg.norm(moved, axis=1).max() < 1e-5
+    valences = [2, 2, 3, 3, 2, 4][: len(points)]
+    field = IsotropicSolver(refined).solve(
+        at_vertices(refined, refinement.vertices.tolist(), valences)
+    )
+    assert field.max_closing_error < 1e-9
