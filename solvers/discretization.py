@@ -17,8 +17,11 @@ from solvers.triangulation import FloatArray, IntArray, IntrinsicTriangulation, 
 
 QUARTER = np.pi / 2
 
-VERTEX_TOLERANCE = 1e-9
-"""Barycentric weight by which a point may miss a vertex and still count as on it."""
+CLEARANCE = 1e-6
+"""Least barycentric weight of a point in a triangle, for no part of a split to be without area.
+
+A point with two weights below is on the vertex.
+"""
 
 
 @dataclass(frozen=True)
@@ -138,6 +141,19 @@ class Discretization:
         h = self.triangulation.boundary_halfedges
         return h, loop_of[self.triangulation.tail[h]]
 
+    def locate(self, points: Sequence[SurfacePoint]) -> Located:
+        """Return where points of the surface, and the frames of their triangles, lie.
+
+        Parameters
+        ----------
+        points : sequence of SurfacePoint
+            Points of the surface.
+        """
+        faces = np.array([p.face for p in points], dtype=np.int64)
+        weights = np.array([p.barycentric for p in points]).reshape(-1, 3)
+        own = self.surface.triangulation.corner_positions[faces]
+        return self.delaunay.locate(faces, np.einsum("ki,kij->kj", weights, own))
+
     def place(self, points: Sequence[SurfacePoint]) -> tuple[IntArray, FloatArray]:
         """Return where points of the surface lie on the triangulation.
 
@@ -151,20 +167,17 @@ class Discretization:
         faces : (k,) int array
             A triangle of each.
         weights : (k, 3) float array
-            Barycentric weights in it; exactly 1 and 0 for vertices.
+            Barycentric weights in it; exactly 1 and 0 for vertices, at least `CLEARANCE` (less
+            rounding) otherwise.
         """
-        t = self.triangulation
-        faces = np.array([p.face for p in points], dtype=np.int64)
-        weights = np.array([p.barycentric for p in points]).reshape(-1, 3)
-        flat = np.einsum("ki,kij->kj", weights, self.surface.triangulation.corner_positions[faces])
-        located = self.delaunay.locate(faces, flat)
+        t, located = self.triangulation, self.locate(points)
         corners = t.corner_positions[located.face]
         third = located.place[:, 1] / corners[:, 2, 1]
         second = (located.place[:, 0] - third * corners[:, 2, 0]) / corners[:, 1, 0]
         inside = np.maximum(np.stack([1 - second - third, second, third], axis=1), 0.0)
         inside /= inside.sum(axis=1)[:, None]
         nearest = np.argmax(inside, axis=1)
-        at_vertex = inside[np.arange(len(faces)), nearest] >= 1 - VERTEX_TOLERANCE
+        at_vertex = inside[np.arange(len(inside)), nearest] >= 1 - VERTEX_TOLERANCE
         inside[at_vertex] = np.eye(3)[nearest[at_vertex]]
         return located.face, inside
 

@@ -13,9 +13,6 @@ import numpy as np
 from solvers.operators import corner_midpoint_offsets
 from solvers.triangulation import FloatArray
 
-CLEARANCE = 1e-6
-"""Least barycentric weight used for the split, so that no part of it is without area."""
-
 
 def split_offsets(
     corners: FloatArray, weights: FloatArray, index: int, values: FloatArray
@@ -27,7 +24,7 @@ def split_offsets(
     corners : (3, 2) float array
         The triangle laid out in its frame.
     weights : (3,) float array
-        Barycentric weights of the singularity.
+        Barycentric weights of the singularity, none of them next to zero.
     index : int
         Its index, in quarter turns.
     values : (3,) float array
@@ -39,8 +36,6 @@ def split_offsets(
         theta at each edge midpoint minus theta at the triangle's barycentre, radians; any two
         ways around the singularity differ by whole quarter turns.
     """
-    weights = np.maximum(weights, CLEARANCE)
-    weights = weights / weights.sum()
     x = weights @ corners
     # Part i has corners i, i + 1 and the singularity.
     parts = np.stack([corners, corners[[1, 2, 0]], np.broadcast_to(x, (3, 2))], axis=1)

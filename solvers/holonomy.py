@@ -12,6 +12,7 @@ import numpy as np
 
 from solvers.discretization import QUARTER, Condition, Discretization
 from solvers.factorization import Factorization
+from solvers.points import SurfacePoint
 from solvers.singularities import Singularity
 from solvers.triangulation import FloatArray, next_halfedge, wrap
 
@@ -90,6 +91,28 @@ class Holonomy:
         index = np.array([s.index for s in singularities], dtype=np.float64)
         potential = np.einsum("ckj,kj->ck", self._corner_values[:, faces], weights)
         return wrap(self._constant + QUARTER * potential @ index, QUARTER)
+
+    def gradients(self, points: Sequence[SurfacePoint]) -> FloatArray:
+        """Return the gradients of the holonomy potentials.
+
+        Parameters
+        ----------
+        points : sequence of SurfacePoint
+            Where.
+
+        Returns
+        -------
+        (c, k, 2) float array
+            In the frames of the points' triangles. Moving a singularity of index k_j by d
+            changes defect i by (pi/2) k_j grad Z_i . d.
+        """
+        t, at = self._discretization.triangulation, self._discretization.locate(points)
+        p = t.corner_positions[at.face]
+        opposite = p[:, [2, 0, 1]] - p[:, [1, 2, 0]]
+        sums = np.einsum("cki,kij->ckj", self._corner_values[:, at.face], opposite)
+        gradient = (1j * sums[..., 0] - sums[..., 1]) / (2 * t.areas[at.face])
+        gradient *= np.exp(-1j * at.turn)
+        return np.stack([gradient.real, gradient.imag], axis=2)
 
     def harmonic_correction(self, turns: FloatArray) -> FloatArray:
         """Return what to add to H so that the defects change by given angles, and nothing else.

@@ -14,7 +14,7 @@ import numpy as np
 
 from solvers.crossfield import Convergence, CrossField
 from solvers.cut_graph import cut_graph
-from solvers.discretization import QUARTER, Discretization
+from solvers.discretization import CLEARANCE, QUARTER, Discretization
 from solvers.embedded import split_offsets
 from solvers.errors import SingularityError
 from solvers.factorization import factorized
@@ -147,10 +147,12 @@ class IsotropicSolver:
         taken: dict[tuple[str, int], int] = {}
         for number, (face, weight) in enumerate(zip(faces, weights, strict=True), start=1):
             at = vertices[number - 1][weight > 0]
-            opposite_zero = np.flatnonzero(weight == 0)
-            edges = (opposite_zero + 1) % 3 if len(at) == 2 else opposite_zero[:0]
-            on_boundary_edge = (t.twin[3 * face + edges] < 0).any()
-            if on_boundary_edge or (len(at) == 1 and self.surface.boundary_vertices[at[0]]):
+            if len(at) == 1:
+                on_boundary = self.surface.boundary_vertices[at[0]]
+            else:
+                sides = (np.flatnonzero(weight <= CLEARANCE) + 1) % 3
+                on_boundary = (t.twin[3 * face + sides] < 0).any()
+            if on_boundary:
                 raise SingularityError(
                     f"singularity {number} lies on the boundary",
                     remedy="move it inside, or give the boundary a corner there",

@@ -46,3 +46,21 @@ def random_configuration(surface: TriSurface, seed: int, pairs: int = 2) -> list
     inner = np.flatnonzero(~surface.boundary_vertices)
     chosen = np.random.default_rng(seed).choice(inner, len(valences), replace=False)
     return at_vertices(surface, chosen.tolist(), valences)
+
+
+def separated(surface: TriSurface, seed: int, valences: list[int], gap: float) -> list[Singularity]:
+    """Singularities at random vertices that keep a distance from each other and the boundary."""
+    rng = np.random.default_rng(seed)
+    inner = np.flatnonzero(~surface.boundary_vertices)
+    if surface.boundary_loops:
+        rim = surface.vertices[surface.boundary_vertices]
+        away = np.linalg.norm(surface.vertices[inner][:, None] - rim[None], axis=2).min(axis=1)
+        inner = inner[away > 0.5 * gap]
+    for _ in range(10_000):
+        chosen = rng.choice(inner, len(valences), replace=False)
+        distance = np.linalg.norm(
+            surface.vertices[chosen][:, None] - surface.vertices[chosen][None], axis=2
+        )
+        if (distance + np.eye(len(chosen)) * 9).min() > gap:
+            return at_vertices(surface, chosen.tolist(), valences)
+    raise ValueError("no room for the singularities")

@@ -16,7 +16,7 @@ from solvers.singularities import Singularity, default_corners
 from solvers.surface import TriSurface
 from solvers.triangulation import wrap
 from solvers.verdict import judge
-from tests.solvers.suite import SURFACES, at_vertices, random_configuration
+from tests.solvers.suite import SURFACES, at_vertices, random_configuration, separated
 
 QUARTER = np.pi / 2
 DISTORTED = ["annulus", "plate", "cylinder", "torus_with_hole", "double_torus", "slivers"]
@@ -24,24 +24,6 @@ DISTORTED = ["annulus", "plate", "cylinder", "torus_with_hole", "double_torus", 
 
 def aligned(surface: TriSurface, configuration: list[Singularity]) -> AlignedField:
     return aligned_field(IsotropicSolver(surface, flips=False), configuration)
-
-
-def apart(surface: TriSurface, seed: int, valences: list[int], gap: float) -> list[Singularity]:
-    """Singularities at random vertices that keep a distance from each other and the boundary."""
-    rng = np.random.default_rng(seed)
-    inner = np.flatnonzero(~surface.boundary_vertices)
-    if surface.boundary_loops:
-        rim = surface.vertices[surface.boundary_vertices]
-        away = np.linalg.norm(surface.vertices[inner][:, None] - rim[None], axis=2).min(axis=1)
-        inner = inner[away > 0.5 * gap]
-    for _ in range(10_000):
-        chosen = rng.choice(inner, len(valences), replace=False)
-        distance = np.linalg.norm(
-            surface.vertices[chosen][:, None] - surface.vertices[chosen][None], axis=2
-        )
-        if (distance + np.eye(len(chosen)) * 9).min() > gap:
-            return at_vertices(surface, chosen.tolist(), valences)
-    raise ValueError("no room for the singularities")
 
 
 @pytest.mark.parametrize("name", DISTORTED)
@@ -58,7 +40,7 @@ def test_the_aligned_field_is_aligned_everywhere(name: str) -> None:
 def test_the_energy_of_the_aligned_field_is_that_of_its_harmonic_correction() -> None:
     """On an annulus E^2 = r^2 / <eta, eta>, with <eta, eta> = log(outer / inner) / (2 pi)."""
     surface = BUILTIN["annulus"](inner=0.4, n=96)
-    start = aligned(surface, apart(surface, 1, [3, 5] * 4, 0.15))
+    start = aligned(surface, separated(surface, 1, [3, 5] * 4, 0.15))
     defect = start.isotropic.defects[0]
     expected = abs(defect) / np.sqrt(np.log(1 / 0.4) / (2 * np.pi))
     field = IntegratedField(start, start.start).field
@@ -99,7 +81,7 @@ def test_the_jacobian_is_the_derivative_of_the_residual(name: str) -> None:
 def test_random_annuli_converge_from_equal_sizes_in_few_steps(seed: int) -> None:
     surface = BUILTIN["annulus"](inner=0.4, n=64)
     newton = MinimumNormNewton(
-        aligned(surface, apart(surface, seed, [3, 5] * 4, 0.2)).integrability
+        aligned(surface, separated(surface, seed, [3, 5] * 4, 0.2)).integrability
     )
     end = run(newton.solve(np.zeros(newton.integrability.assembly.n)))
     assert end.history[-1] < 1e-10
@@ -125,7 +107,7 @@ def test_other_surfaces_and_valences_converge(make, valences: list[int], gap: fl
         - sum(4 - v for v in valences)
     )
     valences = valences + [3 if missing > 0 else 5] * abs(missing)
-    start = aligned(surface, apart(surface, 0, valences, gap))
+    start = aligned(surface, separated(surface, 0, valences, gap))
     newton = MinimumNormNewton(start.integrability)
     end = run(newton.solve(np.zeros(start.integrability.assembly.n)))
     assert end.history[-1] < 1e-10
@@ -134,7 +116,7 @@ def test_other_surfaces_and_valences_converge(make, valences: list[int], gap: fl
 
 def test_the_last_newton_steps_are_quadratic() -> None:
     surface = BUILTIN["annulus"](inner=0.4, n=96)
-    start = aligned(surface, apart(surface, 3, [3, 5] * 4, 0.2))
+    start = aligned(surface, separated(surface, 3, [3, 5] * 4, 0.2))
     newton = MinimumNormNewton(start.integrability)
     energies = np.array(run(newton.solve(start.start)).history)
     falling = energies[(energies < 0.1) & (energies > 1e-7)]
@@ -225,7 +207,7 @@ def test_bad_size_maps_are_refused(sizes: np.ndarray, message: str) -> None:
 
 def test_the_papers_alternation_falls_steadily_and_stalls_far_from_validity() -> None:
     surface = BUILTIN["annulus"](inner=0.4, n=64)
-    near = alternate(aligned(surface, apart(surface, 1, [3, 5] * 4, 0.2)), weight=1e-3)
+    near = alternate(aligned(surface, separated(surface, 1, [3, 5] * 4, 0.2)), weight=1e-3)
     history = np.array(run(near).history)
     assert (np.diff(history) <= 0).all()
     assert history[-1] < 0.1 * history[0]
@@ -249,7 +231,7 @@ def test_each_step_can_be_shown_as_a_field() -> None:
 def test_the_seamless_map_closes_without_flips(name: str) -> None:
     surface = SURFACES[name]()
     valences = [s.valence for s in random_configuration(surface, 0, pairs=1)]
-    start = aligned(surface, apart(surface, 2, valences, 0.25))
+    start = aligned(surface, separated(surface, 2, valences, 0.25))
     mapped = run(anisotropic_field(start)).seamless_map
     assert len(mapped.flipped) == 0
     assert mapped.distance < 0.05
