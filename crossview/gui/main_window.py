@@ -52,7 +52,8 @@ class Centre(QWidget):
 
     def show_state(self, old: WindowState, new: WindowState) -> None:
         """Follow the window's state."""
-        self.stack.setCurrentWidget(self.empty if new.document is None else self.viewport)
+        nothing = new.document is None and new.faulty is None
+        self.stack.setCurrentWidget(self.empty if nothing else self.viewport)
         self.viewport.show_state(old, new)
         self.message_bar.show_state(old, new)
 
@@ -77,7 +78,7 @@ class MainWindow(QMainWindow):
         self.viewport: Viewport = self.centre.viewport
         self.actions_table = Actions(ACTIONS, self)
         named = self.actions_table.by_name
-        self.surface_panel = SurfacePanel()
+        self.surface_panel = SurfacePanel(self.workspace)
         self.singularities_panel: SingularitiesPanel = SingularitiesPanel(self.workspace, named)
         self.validity_panel = ValidityPanel(self.workspace)
         self.layers_panel = LayersPanel(self.workspace)
@@ -158,10 +159,10 @@ class MainWindow(QMainWindow):
         if old.document is not new.document:
             name = "" if new.document is None else f"{new.document.name} \u2013 "
             self.setWindowTitle(f"{name}crossview")
-            if new.document is not None and (
-                old.document is None or old.document.surface is not new.document.surface
-            ):
-                self.viewport.fit()
+        before = None if old.document is None else old.document.surface
+        after = None if new.document is None else new.document.surface
+        if before is not after or old.faulty is not new.faulty:
+            self.viewport.fit()
 
     def _opened(self, document: Document) -> None:
         self.files.opened(document)

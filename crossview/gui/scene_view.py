@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
+import numpy as np
+
 from crossview.gui.figure_settings import FigureSettings
 from crossview.gui.state import WindowState
-from crossview.scene import LayerSettings, Marker, SceneView
+from crossview.scene import Elements, LayerSettings, Marker, SceneView
 from crossview.scene.view import Background
 from solvers.surface import TriSurface
 from solvers.triangulation import FloatArray, IntArray
 
+POOR_QUALITY = 0.1
 Range = tuple[float, float]
 
 
@@ -26,6 +29,15 @@ def scene_view(state: WindowState, held_range: Range | None = None) -> SceneView
     """
     surface, document = state.shown_surface, state.document
     background: Background = "dark" if state.dark else "white"
+    if state.faulty is not None:
+        faulty = state.faulty
+        return SceneView(
+            faulty.vertices,
+            faulty.faces,
+            problem=faulty.elements,
+            background=background,
+            layers=state.layers,
+        )
     if surface is None or document is None:
         return SceneView(background=background, layers=state.layers)
     field = state.field if state.field is not None and state.field.surface is surface else None
@@ -44,15 +56,21 @@ def scene_view(state: WindowState, held_range: Range | None = None) -> SceneView
         preview=_preview(state, surface),
         cut_graph=None if field is None else state.cut_graph,
         loop=_loop(state),
+        problem=Elements(faces=poor_faces(surface)) if state.poor else None,
         title=document.source.title or document.name,
         background=background,
         layers=_layers(state.layers, held_range),
     )
 
 
+def poor_faces(surface: TriSurface) -> IntArray:
+    """Return the numbers of the triangles that are poor for finite elements."""
+    return np.flatnonzero(surface.triangle_quality < POOR_QUALITY)
+
+
 def figure_view(state: WindowState, settings: FigureSettings) -> SceneView:
     """Return what to draw in a figure: what is shown, without what only helps to edit."""
-    view = scene_view(replace(state, trial=None, selected=None, condition=None))
+    view = scene_view(replace(state, trial=None, selected=None, condition=None, poor=False))
     return replace(view, background="transparent") if settings.transparent else view
 
 

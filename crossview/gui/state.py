@@ -6,11 +6,8 @@ import dataclasses
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
-import numpy as np
-from numpy.typing import NDArray
-
 from crossview.pipeline import Solution
-from crossview.scene import LayerSettings, default_layers
+from crossview.scene import Elements, LayerSettings, default_layers
 from crossview.session.document import Document
 from crossview.session.live import LiveBase, LiveEdit
 from solvers.crossfield import CrossField
@@ -18,6 +15,7 @@ from solvers.points import SurfacePoint
 from solvers.progress import Progress
 from solvers.singularities import IndexBudget, Singularity, index_budget
 from solvers.surface import TriSurface
+from solvers.triangulation import FloatArray, IntArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,6 +24,23 @@ class MessageAction:
 
     label: str
     run: Callable[[], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Faulty:
+    """Triangles that are no surface, and what is wrong with them.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float array
+    faces : (m, 3) int array
+    elements : Elements
+        The offending ones.
+    """
+
+    vertices: FloatArray
+    faces: IntArray
+    elements: Elements
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,6 +57,8 @@ class Message:
     details : str
         More to read and copy; may be empty.
     actions : tuple of MessageAction
+    faulty : Faulty or None
+        What it is about, to be shown in the scene as long as the message stands.
     """
 
     text: str
@@ -49,6 +66,7 @@ class Message:
     severity: str = "error"
     details: str = ""
     actions: tuple[MessageAction, ...] = ()
+    faulty: Faulty | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,6 +118,8 @@ class WindowState:
         Number of the selected singularity.
     condition : int or None
         Number of the holonomy condition whose loop is pointed out.
+    poor : bool
+        Whether the poor triangles are pointed out.
     trial : Trial or None
     layers : mapping of str to LayerSettings
     dark : bool
@@ -114,11 +134,12 @@ class WindowState:
     base: LiveBase | None = None
     solution: Solution | None = None
     field: CrossField | None = None
-    cut_graph: NDArray[np.int64] | None = None
+    cut_graph: IntArray | None = None
     tool: int | None = None
     any_valence: int = 7
     selected: int | None = None
     condition: int | None = None
+    poor: bool = False
     trial: Trial | None = None
     layers: Mapping[str, LayerSettings] = dataclasses.field(default_factory=default_layers)
     dark: bool = False
@@ -137,9 +158,16 @@ class WindowState:
     @property
     def shown_surface(self) -> TriSurface | None:
         """The surface that is drawn and picked on: the kept refined one where there is one."""
+        if self.faulty is not None:
+            return None
         if self.base is not None:
             return self.base.surface
         return None if self.document is None else self.document.surface
+
+    @property
+    def faulty(self) -> Faulty | None:
+        """What is shown in place of the document while its message stands."""
+        return None if self.message is None else self.message.faulty
 
     @property
     def budget(self) -> IndexBudget | None:
@@ -151,7 +179,7 @@ class WindowState:
         return index_budget(self.document.surface, self.trial.singularities, self.document.corners)
 
     @property
-    def defects(self) -> NDArray[np.float64] | None:
+    def defects(self) -> FloatArray | None:
         """Holonomy defects in radians, with the trial; None while they have no meaning."""
         budget = self.budget
         if budget is None or not budget.satisfied:

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 
 from crossview.gui.solving import Solving
-from crossview.gui.state import MessageAction
+from crossview.gui.state import Faulty, MessageAction
 from crossview.gui.store import Store
 from crossview.gui.trials import Trials
+from crossview.scene import Elements
 from crossview.session.commands import (
     AddSingularities,
     ChangeValence,
@@ -22,10 +24,11 @@ from crossview.session.commands import (
 from crossview.session.document import Document
 from crossview.session.history import History
 from crossview.session.mending import Mending
-from crossview.session.opening import open_target
+from crossview.session.opening import open_target, read_triangles
 from solvers.errors import SurfaceError
 from solvers.points import SurfacePoint
 from solvers.singularities import Singularity
+from solvers.triangulation import FloatArray, IntArray
 
 
 class Workspace(Store):
@@ -63,12 +66,18 @@ class Workspace(Store):
 
         def failed(error: Exception) -> None:
             remedy = error.remedy if isinstance(error, SurfaceError) else ""
-            actions = tuple(
+            actions = [
                 MessageAction(label, partial(self.open, target, *choices))
                 for start, label, choices in offers
                 if remedy.startswith(start)
-            )
-            self.fail(error, "open", actions)
+            ]
+            if (
+                isinstance(error, SurfaceError)
+                and error.elements.size
+                and not (component or repair)
+            ):
+                actions.append(MessageAction("Show where", partial(self._locate, target, error)))
+            self.fail(error, "open", tuple(actions))
             self.solving.resume()
 
         job = partial(open_target, target, component=component, repair=repair)
@@ -122,6 +131,22 @@ class Workspace(Store):
         """Change settings of one layer."""
         self.set(layers=self.state.with_layer(name, **changes).layers)
         self.solving.cut_if_wanted()
+
+    def _locate(self, target: str, error: SurfaceError) -> None:
+        """Show what could not be opened, the offending elements pointed out."""
+        message = self.state.message
+
+        def show(triangles: tuple[FloatArray, IntArray]) -> None:
+            if message is not None and message is self.state.message:
+                elements = Elements(**{error.kind: error.elements})
+                faulty = Faulty(*triangles, elements)
+                left = tuple(a for a in message.actions if a.label != "Show where")
+                self.set(message=replace(message, actions=left, faulty=faulty))
+            self.solving.resume()
+
+        self.solving.run(
+            partial(read_triangles, target), show, lambda failure: self.fail(failure, "open")
+        )
 
     def _open_document(self, document: Document) -> None:
         self._history.open(document)

@@ -7,8 +7,11 @@ from dataclasses import replace
 from pathlib import Path
 
 from crossview.gallery import find_case
+from crossview.io import read_surface
 from crossview.session.document import Document
+from solvers.flat_triangles import merge_coincident
 from solvers.progress import Progress
+from solvers.triangulation import FloatArray, IntArray
 
 
 def open_target(
@@ -40,3 +43,19 @@ def open_target(
     surface = document.surface
     _ = surface.triangle_quality, surface.genus, surface.boundary_loops, surface.area
     return document
+
+
+def read_triangles(target: str) -> Generator[Progress, None, tuple[FloatArray, IntArray]]:
+    """Read the triangles of a file that is no surface, numbered as its error numbers them.
+
+    Returns
+    -------
+    (n, 3) float array, (m, 3) int array
+        Vertices and triangles.
+    """
+    yield Progress(f"reading {Path(target).name}", 0.1)
+    raw = read_surface(str(find_case(target).surface))
+    if not raw.merge:
+        return raw.vertices, raw.faces
+    vertices, faces, _ = merge_coincident(raw.vertices, raw.faces)
+    return vertices, faces

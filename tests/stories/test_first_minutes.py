@@ -158,3 +158,47 @@ def test_locked_ones_stay(hand: Hand) -> None:
     hand.release(start + QPointF(80.0, 0.0))
     hand.wait()
     assert hand.state.singularities[0].point == point
+
+
+def test_keys_change_the_valence_of_the_selected(hand: Hand) -> None:
+    hand.open("disk-4")
+    hand.click(hand.place_of(1))
+    hand.key(Qt.Key.Key_Plus)
+    assert hand.state.singularities[1].valence == 5
+    assert hand.shows(RED, hand.place_of(1))
+    hand.key(Qt.Key.Key_Minus)
+    hand.key(Qt.Key.Key_Minus)
+    assert hand.state.singularities[1].valence == 2
+    hand.wait()
+    assert hand.shows(valence_color(2), hand.place_of(1))
+
+
+def test_a_transparent_figure_of_the_size_and_scale_asked(hand: Hand, tmp_path: Path) -> None:
+    hand.open("disk-4")
+    panel = hand.window.export_panel
+    panel.width_box.setValue(300)
+    panel.height_box.setValue(200)
+    panel.scale_box.setValue(2)
+    panel.transparent_box.setChecked(True)
+    assert panel.result.text() == "600 × 400 pixels"
+    hand.window.files.export(tmp_path / "disk.png")
+    picture = np.asarray(Image.open(tmp_path / "disk.png"))
+    assert picture.shape == (400, 600, 4)
+    assert picture[2, 2, 3] == 0
+    assert (picture[..., 3] == 255).mean() > 0.2
+
+
+def test_a_figure_shows_the_view_and_layers_of_the_window(hand: Hand, tmp_path: Path) -> None:
+    hand.open("disk-4")
+    hand.window.layers_panel.toggle("singularities")
+    hand.window.files.export(tmp_path / "without.png")
+    without = np.asarray(Image.open(tmp_path / "without.png").convert("RGB"))
+    assert count_color(without, BLUE) == 0
+
+
+def test_a_figure_that_cannot_be_written_is_told(hand: Hand, tmp_path: Path) -> None:
+    hand.open("disk-4")
+    hand.window.files.export(tmp_path / "figure.jpeg")
+    assert "figure.jpeg" in hand.state.message.text
+    hand.window.files.export(tmp_path / "figure.png")
+    assert hand.state.message is None

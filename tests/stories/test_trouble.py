@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 from PySide6.QtCore import QPointF, Qt
 
-from crossview.scene.colors import valence_color
+from crossview.scene.colors import PROBLEM, valence_color
 from tests.windowing import Hand
 
 BLUE, RED = valence_color(3), valence_color(5)
@@ -48,11 +48,39 @@ def test_bad_triangles_can_be_repaired(hand: Hand, tmp_path: Path) -> None:
     hand.open(str(path))
     assert hand.state.document is None
     labels = [button.text() for button in hand.window.centre.message_bar.action_buttons]
-    assert labels == ["Repair"]
+    assert labels == ["Repair", "Show where"]
     hand.window.centre.message_bar.action_buttons[0].click()
     hand.wait(lambda: hand.state.document is not None)
     assert hand.state.document.surface.n_faces == 2
     assert hand.state.field is not None  # four corners: the budget holds
+
+
+def test_where_the_trouble_is_can_be_seen(hand: Hand, tmp_path: Path) -> None:
+    path = tmp_path / "three at an edge.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.5 1\nf 1 2 3\nf 1 3 4\nf 1 3 5\n")
+    hand.open(str(path))
+    bar = hand.window.centre.message_bar
+    assert [button.text() for button in bar.action_buttons] == ["Repair", "Show where"]
+    bar.action_buttons[1].click()
+    hand.wait(lambda: hand.state.faulty is not None)
+    assert hand.window.viewport.isVisible()
+    assert hand.shows(PROBLEM, hand.place((0.5, 0.5, 0.0)))
+    assert not hand.shows(PROBLEM, hand.place((0.5, 0.0, 0.0)))
+    hand.window.workspace.set(message=None)  # dismissed
+    assert hand.window.centre.empty.isVisible()
+
+
+def test_poor_triangles_are_counted_and_pointed_out(hand: Hand, tmp_path: Path) -> None:
+    path = tmp_path / "sliver.obj"
+    path.write_text("v 0 0 0\nv 4 0 0\nv 2 0.1 0\nv 2 3 0\nf 1 2 3\nf 1 3 4\nf 3 2 4\n")
+    hand.open(str(path))
+    problems = hand.window.surface_panel.problems
+    assert problems.text() == "1 poor triangle"
+    assert not hand.shows(PROBLEM)
+    problems.hovered.emit(True)
+    assert hand.shows(PROBLEM, hand.place((2.0, 0.0, 0.0)))
+    problems.hovered.emit(False)
+    assert not hand.shows(PROBLEM)
 
 
 def test_a_failed_opening_takes_nothing_and_the_next_clears_the_bar(hand: Hand) -> None:

@@ -2,21 +2,38 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QEvent, Qt, Signal
+from PySide6.QtGui import QEnterEvent
 from PySide6.QtWidgets import QFormLayout, QFrame, QLabel, QScrollArea, QVBoxLayout, QWidget
 
 from crossview.gui.panels.texts import count
+from crossview.gui.scene_view import poor_faces
 from crossview.gui.state import WindowState
+from crossview.gui.workspace import Workspace
 from crossview.session.document import Document
 from solvers.surface import TriSurface
 
-POOR_QUALITY = 0.1
+
+class Hovered(QLabel):
+    """A label that tells when the mouse is over it."""
+
+    hovered = Signal(bool)
+
+    def enterEvent(self, event: QEnterEvent) -> None:
+        """Tell that the mouse is here."""
+        self.hovered.emit(True)
+        super().enterEvent(event)
+
+    def leaveEvent(self, event: QEvent) -> None:
+        """Tell that the mouse has gone."""
+        self.hovered.emit(False)
+        super().leaveEvent(event)
 
 
 class SurfacePanel(QScrollArea):
     """Shows the facts of the document's surface; scrolls where there are many notes."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
+    def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.name = QLabel("Nothing open")
         self.name.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
@@ -24,14 +41,21 @@ class SurfacePanel(QScrollArea):
         font.setBold(True)
         self.name.setFont(font)
         self.counts, self.topology, self.quality = QLabel(), QLabel(), QLabel()
+        self.problems = Hovered()
+        self.problems.hovered.connect(lambda inside: workspace.set(poor=inside))
         self.notes = QLabel()
         self.notes.setWordWrap(True)
         form = QFormLayout()
         form.setContentsMargins(0, 0, 0, 0)
         form.setVerticalSpacing(4)
         form.setHorizontalSpacing(8)
-        self._rows = [("Size", self.counts), ("Topology", self.topology), ("Quality", self.quality)]
-        for title, label in self._rows:
+        rows = (
+            ("Size", self.counts),
+            ("Topology", self.topology),
+            ("Quality", self.quality),
+            ("Problems", self.problems),
+        )
+        for title, label in rows:
             form.addRow(_faint(title), label)
         content = QWidget()
         self.setWidget(content)
@@ -70,9 +94,9 @@ class SurfacePanel(QScrollArea):
         )
         self.topology.setText(_topology(surface))
         worst, mean = float(surface.triangle_quality.min()), float(surface.triangle_quality.mean())
-        poor = int((surface.triangle_quality < POOR_QUALITY).sum())
-        text = f"mean {mean:.2f}, worst {worst:.2g}"
-        self.quality.setText(text + (f"\n{count(poor, 'poor triangle')}" if poor else ""))
+        poor = len(poor_faces(surface))
+        self.quality.setText(f"mean {mean:.2f}, worst {worst:.2g}")
+        self.problems.setText(count(poor, "poor triangle") if poor else "none")
         self.quality.setToolTip("1 is an equilateral triangle, 0 a degenerate one")
         self.notes.setText("\n".join(f"\u2022 {note}" for note in document.problem.notes))
 
