@@ -174,11 +174,10 @@ class Discretization:
         corners = t.corner_positions[located.face]
         third = located.place[:, 1] / corners[:, 2, 1]
         second = (located.place[:, 0] - third * corners[:, 2, 0]) / corners[:, 1, 0]
-        inside = np.maximum(np.stack([1 - second - third, second, third], axis=1), 0.0)
+        inside = np.maximum(np.stack([1 - second - third, second, third], axis=1), CLEARANCE)
         inside /= inside.sum(axis=1)[:, None]
-        nearest = np.argmax(inside, axis=1)
-        at_vertex = inside[np.arange(len(inside)), nearest] >= 1 - VERTEX_TOLERANCE
-        inside[at_vertex] = np.eye(3)[nearest[at_vertex]]
+        at_vertex = (inside <= CLEARANCE).sum(axis=1) == 2
+        inside[at_vertex] = np.rint(inside[at_vertex])
         return located.face, inside
 
     @cached_property

@@ -40,7 +40,9 @@ def split_offsets(
     # Part i has corners i, i + 1 and the singularity.
     parts = np.stack([corners, corners[[1, 2, 0]], np.broadcast_to(x, (3, 2))], axis=1)
     a, b = parts[:, [1, 2, 0]] - parts, parts[:, [2, 0, 1]] - parts
-    cotangents = (a * b).sum(axis=2) / (a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0])
+    # Part i has the share of the corner it lacks; from x its area would be lost to rounding.
+    double_areas = weights[[2, 0, 1]] * corners[1, 0] * corners[2, 1]
+    cotangents = (a * b).sum(axis=2) / double_areas[:, None]
     # The spoke to corner i lies opposite corner i + 1 of part i and corner i - 1 of part i - 1.
     spokes = 0.5 * (cotangents[:, 1] + cotangents[[2, 0, 1], 0])
     at_x = (spokes @ values - 0.5 * np.pi * index) / spokes.sum()
