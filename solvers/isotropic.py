@@ -20,7 +20,7 @@ from solvers.errors import SingularityError
 from solvers.factorization import factorized
 from solvers.holonomy import Holonomy
 from solvers.operators import lumped_mass, midpoint_offsets, stiffness
-from solvers.singularities import Singularity, default_corners, index_budget
+from solvers.singularities import Singularity, default_corners, require_budget
 from solvers.surface import TriSurface
 from solvers.triangulation import FloatArray, IntArray
 
@@ -82,12 +82,7 @@ class IsotropicSolver:
         SingularityError
             If the index budget is missed, or singularities coincide or lie on the boundary.
         """
-        budget = index_budget(self.surface, singularities, self.corners)
-        if not budget.satisfied:
-            raise SingularityError(
-                f"the singularities miss the index budget, {budget.index_sum} of {budget.required}",
-                remedy=" or ".join(budget.remedies),
-            )
+        require_budget(self.surface, singularities, self.corners)
         faces, weights = self.discretization.place([s.point for s in singularities])
         self._check_places(faces, weights)
         right = self._right_hand_side(singularities, faces, weights)

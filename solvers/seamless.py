@@ -2,7 +2,9 @@
 
 The unknown is one vector for each edge, in the frame of its triangle's cross; the other side sees
 it turned by the matching. The three vectors of a triangle close, boundary edges have no component
-across, and the vectors stay as near as possible to what the field asks for.
+across, and the vectors stay as near as possible to what the field asks for. Triangles that come out
+turned over (at singularities) are asked for the image that their mean cross and sizes give, which
+is not, with more weight, until none is.
 """
 
 from __future__ import annotations
@@ -12,12 +14,18 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import coo_array, csc_array, diags_array
 
-from solvers.factorization import factorized
+from solvers.factorization import Analysis
 from solvers.integrability import Integrability
-from solvers.triangulation import FloatArray, IntArray
+from solvers.triangulation import FloatArray, IntArray, IntrinsicTriangulation
 
 LEAST_WEIGHT = 0.05
 """Edges opposite right or obtuse angles still count this much, in cotangents."""
+
+STIFFER, ROUNDS = 5.0, 6
+"""Growth of the weight of triangles turned over, and how often it grows at most."""
+
+HOPELESS = 0.01
+"""Share of triangles turned over beyond which mending them is not tried."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +52,7 @@ class SeamlessMap:
 
 
 def seamless_map(integrability: Integrability, x: FloatArray) -> SeamlessMap:
-    """Return the seamless map nearest to a field, by one sparse solve.
+    """Return the seamless map nearest to a field, by a few sparse solves.
 
     Parameters
     ----------
@@ -56,25 +64,52 @@ def seamless_map(integrability: Integrability, x: FloatArray) -> SeamlessMap:
     Returns
     -------
     SeamlessMap
+        The one with the fewest triangles turned over.
     """
     t = integrability.triangulation
-    edges = t.edge_halfedges
-    wanted = _wanted(integrability, x)[edges]
-    weight = np.maximum(t.weights[edges], LEAST_WEIGHT / 2)
-    closing = _closing(integrability, edges)
-    free = _free(integrability, edges)
-    inverse = np.repeat(1 / weight, 2) * free.reshape(-1)
-    wanted = np.where(free, wanted, 0.0)
-    schur = closing @ diags_array(inverse) @ closing.T
-    # On a flat torus the closing of all triangles together is no condition.
-    schur = csc_array(schur + 1e-13 * diags_array(schur.diagonal()))
-    gap = closing @ wanted.reshape(-1)
-    correction = inverse * (closing.T @ factorized(schur).solve(gap))
-    moved = wanted - correction.reshape(-1, 2)
-    squares = np.repeat(weight, 2)
-    distance = np.sqrt(squares @ correction**2 / (squares @ wanted.reshape(-1) ** 2))
-    images = (_to_halfedges(integrability, edges) @ moved.reshape(-1)).reshape(-1, 3, 2)
-    return SeamlessMap(images, float(distance))
+    fit = _Fit(integrability)
+    weight = np.maximum(t.weights, LEAST_WEIGHT / 2)
+    wanted, upright = _wanted(integrability, x), _wanted_by_means(integrability, x)
+    best = found = fit.solve(wanted, weight)
+    for _ in range(ROUNDS):
+        over = found.flipped
+        if len(over) == 0 or len(over) > HOPELESS * t.n_faces:
+            break
+        h = (3 * over[:, None] + np.arange(3)).reshape(-1)
+        wanted[h] = upright[h]
+        weight[h] *= STIFFER
+        found = fit.solve(wanted, weight)
+        if len(found.flipped) < len(best.flipped):
+            best = found
+    return best
+
+
+class _Fit:
+    """Closed images that are as near as possible to wanted ones."""
+
+    def __init__(self, integrability: Integrability) -> None:
+        edges = integrability.triangulation.edge_halfedges
+        self._spread = _to_halfedges(integrability, edges)
+        self._closing = _closing(integrability, self._spread)
+        self._free = _free(integrability, edges).reshape(-1)
+        self._analysis: Analysis | None = None
+
+    def solve(self, wanted: FloatArray, weight: FloatArray) -> SeamlessMap:
+        """Return the map nearest to wanted images (3 m, 2) of halfedges with weights (3 m,)."""
+        squares = np.repeat(weight, 2)
+        diagonal = self._spread.power(2).T @ squares
+        asked = self._free * (self._spread.T @ (squares * wanted.reshape(-1))) / diagonal
+        inverse = self._free / diagonal
+        closing = self._closing
+        schur = closing @ diags_array(inverse) @ closing.T
+        # On a flat torus the closing of all triangles together is no condition.
+        schur = csc_array(schur + 1e-13 * diags_array(schur.diagonal()))
+        if self._analysis is None:
+            self._analysis = Analysis(schur)
+        correction = inverse * (closing.T @ self._analysis.factor(schur).solve(closing @ asked))
+        distance = np.sqrt(diagonal @ correction**2 / (diagonal @ asked**2))
+        images = (self._spread @ (asked - correction)).reshape(-1, 3, 2)
+        return SeamlessMap(images, float(distance))
 
 
 def _wanted(integrability: Integrability, x: FloatArray) -> FloatArray:
@@ -84,12 +119,26 @@ def _wanted(integrability: Integrability, x: FloatArray) -> FloatArray:
     following = np.array([1, 2, 0])
     a = (a + a[:, following]) / 2
     s = (s + s[:, following]) / 2
-    angle = t.directions - (i.theta[:, None] + i.offsets + delta).reshape(-1)
-    length = t.lengths.reshape(-1)
+    return _over_sizes(t, i.theta[:, None] + i.offsets + delta, a, s)
+
+
+def _wanted_by_means(integrability: Integrability, x: FloatArray) -> FloatArray:
+    """Return the same by each triangle's mean cross and sizes: a linear map, not turned over."""
+    i = integrability
+    a, s, delta = (values.mean(axis=1)[:, None] for values in i.local(x))
+    return _over_sizes(i.triangulation, i.theta[:, None] + delta, a, s)
+
+
+def _over_sizes(
+    t: IntrinsicTriangulation, theta: FloatArray, a: FloatArray, s: FloatArray
+) -> FloatArray:
+    """Return halfedges (3 m, 2) along the cross over the sizes; arguments (m, 3) or (m, 1)."""
+    angle = t.directions.reshape(-1, 3) - theta
+    length = t.lengths.reshape(-1, 3)
     # Sizes are exp(H1) = exp(-a - s) along u and exp(H2) = exp(-a + s) along v.
-    along_u = np.exp((a + s).reshape(-1)) * length * np.cos(angle)
-    along_v = np.exp((a - s).reshape(-1)) * length * np.sin(angle)
-    return np.stack([along_u, along_v], axis=1)
+    along_u = np.exp(a + s) * length * np.cos(angle)
+    along_v = np.exp(a - s) * length * np.sin(angle)
+    return np.stack([along_u, along_v], axis=2).reshape(-1, 2)
 
 
 def _to_halfedges(integrability: Integrability, edges: IntArray) -> csc_array:
@@ -111,7 +160,7 @@ def _to_halfedges(integrability: Integrability, edges: IntArray) -> csc_array:
     return coo_array((values, (rows, columns)), shape=(2 * len(t.twin), 2 * len(edges))).tocsc()
 
 
-def _closing(integrability: Integrability, edges: IntArray) -> csc_array:
+def _closing(integrability: Integrability, spread: csc_array) -> csc_array:
     """Return the (2 m, 2 ne) matrix that sums the edges of each triangle."""
     m = integrability.triangulation.n_faces
     rows = np.repeat(np.arange(m), 3)
@@ -122,7 +171,7 @@ def _closing(integrability: Integrability, edges: IntArray) -> csc_array:
         ),
         shape=(2 * m, 6 * m),
     ).tocsc()
-    return csc_array(summing @ _to_halfedges(integrability, edges))
+    return csc_array(summing @ spread)
 
 
 def _free(integrability: Integrability, edges: IntArray) -> np.ndarray:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from solvers.errors import SingularityError
 from solvers.points import SurfacePoint
 from solvers.surface import TriSurface
 
@@ -110,6 +111,29 @@ def index_budget(
     remedies = _remedies(missing, singularities)
     message = f"index {total} of {required}: {' or '.join(remedies)}"
     return IndexBudget(total, required, message, remedies)
+
+
+def require_budget(
+    surface: TriSurface, singularities: Sequence[Singularity], corners: Mapping[int, int]
+) -> None:
+    """Refuse a configuration that misses the index budget.
+
+    Parameters
+    ----------
+    surface, singularities, corners
+        As for `index_budget`.
+
+    Raises
+    ------
+    SingularityError
+        It names the sum, what is required, and what would mend it.
+    """
+    budget = index_budget(surface, singularities, corners)
+    if not budget.satisfied:
+        raise SingularityError(
+            f"the singularities miss the index budget, {budget.index_sum} of {budget.required}",
+            remedy=" or ".join(budget.remedies),
+        )
 
 
 def _remedies(missing: int, singularities: Sequence[Singularity]) -> tuple[str, ...]:

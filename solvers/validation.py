@@ -12,8 +12,11 @@ from scipy.sparse.csgraph import connected_components
 from solvers.errors import SurfaceError
 from solvers.triangulation import FloatArray, IntArray, next_halfedge
 
-DEGENERATE = 1e-12
-"""Twice the area over the squared longest edge below which a triangle counts as degenerate."""
+DEGENERATE = 1e-7
+"""Twice the area over the squared longest edge below which a triangle counts as degenerate.
+
+The square of the flatness, 1e-14, is what edge lengths in double precision can still tell from 0.
+"""
 
 
 def problems(vertices: FloatArray, faces: IntArray) -> tuple[SurfaceError, ...]:

@@ -21,7 +21,7 @@ from solvers.holonomy import Holonomy
 from solvers.isotropic import IsotropicSolver
 from solvers.progress import Progress
 from solvers.refinement import refine_at
-from solvers.singularities import Singularity
+from solvers.singularities import Singularity, require_budget
 from solvers.surface import TriSurface
 from solvers.triangulation import BoolArray, FloatArray, wrap
 
@@ -78,11 +78,14 @@ def make_valid(
     Raises
     ------
     SingularityError
-        If there is no valid configuration near enough; it says which condition is in the way.
+        If the index budget is missed, or there is no valid configuration near enough; it says
+        which condition is in the way.
     """
     start = tuple(singularities)
     _refuse_impossible(surface, start)
-    guide = IsotropicSolver(surface, corners).holonomy
+    solver = IsotropicSolver(surface, corners)
+    require_budget(surface, start, solver.corners)
+    guide = solver.holonomy
     search = _Search(surface, guide, start)
     first: SingularityError | None = None
     for goal in _goals(guide.defects(start)):

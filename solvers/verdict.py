@@ -79,7 +79,8 @@ def _judge_aligned(field: CrossField, flips: int | None, growth: float | None) -
             "suspect", f"The field is aligned but not integrable: E = {field.energy:.2g}."
         )
     if flips:
-        return Verdict("suspect", f"{flips} triangles are turned over in the integrated map.")
+        which = "1 triangle is" if flips == 1 else f"{flips} triangles are"
+        return Verdict("suspect", f"{which} turned over in the integrated map.")
     if field.max_log_aspect > EXTREME_ASPECT:
         ratio = np.exp(field.max_log_aspect)
         return Verdict("suspect", f"The two sizes differ by a factor of {ratio:.0f}.")
