@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from solvers.errors import SurfaceError
+from solvers.isotropic import IsotropicSolver
 from solvers.primitives import BUILTIN
 from solvers.surface import TriSurface
 from solvers.validation import problems
@@ -92,6 +93,7 @@ BAD = {
     "index too large": (SQUARE, [[0, 1, 2], [0, 2, 9]], r"outside 0\.\.3", [1]),
     "negative index": (SQUARE, [[0, 1, 2], [0, 2, -1]], r"outside 0\.\.3", [1]),
     "degenerate": ([*SQUARE, [2, 0, 0]], [*HALVES, [1, 0, 4]], "1 degenerate", [2]),
+    "nearly flat": ([*SQUARE, [1.7, 3e-8, 0]], [*HALVES, [1, 0, 4]], "1 degenerate", [2]),
     "repeated corner": (SQUARE, [*HALVES, [1, 1, 2]], "1 degenerate", [2]),
     "duplicate": (SQUARE, [*HALVES, [1, 2, 0]], "1 duplicate", [2]),
     "unreferenced": ([*SQUARE, [5, 5, 5]], HALVES, "of no triangle", [4]),
@@ -119,6 +121,17 @@ def test_bad_surfaces_are_refused_by_name_and_element(case: str) -> None:
         TriSurface(vertices, np.asarray(faces, dtype=np.int64).reshape(-1, 3))
     assert refusal.value.elements.tolist() == elements
     assert "\n" not in str(refusal.value)
+
+
+@pytest.mark.parametrize("gap", [1e-3, 1e-5, 3e-7])
+@pytest.mark.parametrize("place", [0.0, 1e-3, 0.5])
+def test_slivers_that_are_accepted_are_solved_on(gap: float, place: float) -> None:
+    """A vertex next to the diagonal of a square, and next to its end or not."""
+    vertices = [*SQUARE, [place + gap, place + 3 * gap, 0]]
+    surface = TriSurface(vertices, [[0, 1, 2], [0, 2, 4], [0, 4, 3], [4, 2, 3]])
+    field = IsotropicSolver(surface).solve([])
+    assert np.ptp(field.H) < 1e-7
+    assert field.max_closing_error < 1e-7
 
 
 def test_every_problem_is_listed_at_once() -> None:
