@@ -12,6 +12,7 @@ from solvers.integrable import FieldStep, alternating_field, anisotropic_field
 from solvers.isotropic import IsotropicSolver
 from solvers.primitives import BUILTIN
 from solvers.progress import run
+from solvers.refinement import refine_at
 from solvers.singularities import Singularity, default_corners
 from solvers.surface import TriSurface
 from solvers.triangulation import wrap
@@ -241,6 +242,22 @@ def test_the_seamless_map_closes_without_flips(name: str) -> None:
     complex_images = mapped.images[..., 0] + 1j * mapped.images[..., 1]
     one, other = complex_images.reshape(-1)[h], complex_images.reshape(-1)[t.twin[h]]
     assert np.abs(other + 1j ** i.quarter_turns[h] * one).max() < 1e-9
+
+
+def test_triangles_turned_over_at_singularities_are_mended() -> None:
+    """A valence 5 inside a triangle: 450 degrees of the map for the three triangles around it."""
+    surface = BUILTIN["annulus"](n=48)
+    turn = np.radians(12) * np.repeat([0, 1], 4) + np.arange(8) * np.pi / 2
+    radius = np.repeat([0.8, 0.6], 4)
+    x, y = radius * np.cos(turn), radius * np.sin(turn)
+    places = [surface.closest_point(p) for p in np.stack([x, y, 0 * x], axis=1)]
+    refined = refine_at(surface, places, levels=0)
+    start = aligned(
+        refined.surface, at_vertices(refined.surface, refined.vertices, [3] * 4 + [5] * 4)
+    )
+    mapped = run(anisotropic_field(start)).seamless_map
+    assert len(mapped.flipped) == 0
+    assert np.abs(mapped.images.sum(axis=1)).max() < 1e-9
 
 
 def test_the_impossible_torus_is_called_impossible() -> None:

@@ -6,7 +6,7 @@ import pytest
 from solvers.isotropic import IsotropicSolver
 from solvers.points import SurfacePoint
 from solvers.primitives import BUILTIN
-from solvers.refinement import refine_at
+from solvers.refinement import refine_at, refine_everywhere
 from solvers.singularities import default_corners
 from solvers.surface import TriSurface
 from tests.solvers.suite import SURFACES, at_vertices
@@ -136,3 +136,16 @@ def test_points_next_to_edges_vertices_and_each_other_leave_a_surface_to_solve_o
         at_vertices(refined, refinement.vertices.tolist(), valences)
     )
     assert field.max_closing_error < 1e-9
+
+
+@pytest.mark.parametrize("name", ["sphere", "plate", "torus_with_hole"])
+def test_every_triangle_is_split_in_four_alike(name: str) -> None:
+    surface = SURFACES[name]()
+    refinement = refine_everywhere(surface)
+    refined = refinement.surface
+    TriSurface(refined.vertices, refined.faces)  # a valid surface
+    assert (refined.vertices[: surface.n_vertices] == surface.vertices).all()
+    assert refined.n_vertices == surface.n_vertices + len(surface.edges)
+    assert (np.bincount(refinement.parent_face) == 4).all()
+    assert np.allclose(refined.face_areas, surface.face_areas[refinement.parent_face] / 4)
+    assert default_corners(refined) == default_corners(surface)
