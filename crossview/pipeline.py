@@ -37,7 +37,7 @@ class Pipeline:
         self._stage: Stage | None = None
         self._problem: Problem | None = None
         self._kept: dict[str, Solution] = {}
-        self._sizes: FloatArray | None = None
+        self._sizes: FloatArray | None = None  # of the last anisotropic solution
 
     def solve(self, problem: Problem) -> Solving:
         """Solve in stages; refined surface and factors are kept while only valences change.
@@ -75,6 +75,7 @@ class Pipeline:
         else:
             finer = None if sizes is None else refined_sizes(sizes, stage.refinement)
             solution = yield from _integrated(stage, problem, finer, seconds)
+            self._sizes = sizes if problem.method == "anisotropic" else self._sizes
         self._kept[problem.method] = solution
         return solution
 
@@ -97,8 +98,9 @@ class Pipeline:
             return None
         if sizes is None:
             return kept
-        before, self._sizes = self._sizes, sizes
-        return kept if before is not None and np.array_equal(before, sizes) else None
+        # the file may have changed
+        same = self._sizes is not None and np.array_equal(sizes, self._sizes)
+        return kept if same else None
 
     def _prepared(self, problem: Problem) -> Stage:
         """The stage for a problem, the last one if it serves; forgets what has become wrong."""

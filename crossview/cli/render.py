@@ -25,6 +25,7 @@ def render(
     /,
     *,
     output: Output,
+    method: str | None = None,
     layers: str | None = None,
     size: str = "1600x1200",
     scale: float = 1.0,
@@ -42,6 +43,8 @@ def render(
         A case, a surface without singularities, or the name of a gallery case.
     output
         The picture: .png, or .svg or .pdf with curves and crosses as vectors.
+    method
+        isotropic, aligned, anisotropic or alternating, instead of the case's.
     layers
         What to draw, such as H,crosses,singularities,cut; by default what the window shows.
     size
@@ -62,7 +65,7 @@ def render(
     from crossview.export.figures import render as draw
     from crossview.scene import layers_named
 
-    found = chosen_case(case, component=component, repair=repair)
+    found = chosen_case(case, method, component, repair)
     if found.options.component == "all":
         raise CrossviewError("a picture shows one component", "all", "name one with --component")
     shown = None if layers is None else [name.strip() for name in layers.split(",")]

@@ -33,7 +33,7 @@ def solve(
     output
         Folder for the results: all of them or, after an error, none.
     method
-        The method, instead of the case's.
+        isotropic, aligned, anisotropic or alternating, instead of the case's.
     component
         Of a surface in several pieces: largest, a number (0 is the largest), or all, which
         makes a folder for each.

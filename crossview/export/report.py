@@ -21,6 +21,8 @@ def report(solution: Solution) -> dict[str, Any]:
 
     "surface" is the surface as given, "solved_on" the one refined around the singularities;
     "boundary_misalignment_degrees" follows the order of ``surface.boundary_loops`` of the first.
+    "holonomy" and "isotropically_valid" are those of the isotropic field of the configuration,
+    whatever the method.
     """
     problem, field = solution.problem, solution.field
     surface, solved_on = problem.surface, solution.surface
@@ -52,6 +54,7 @@ def report(solution: Solution) -> dict[str, Any]:
         "tolerance_degrees": problem.options.tolerance_degrees,
         "isotropically_valid": solution.valid,
         "boundary_misalignment_degrees": _floats(np.degrees(_by_loop(solution))),
+        **_integrability(solution),
         "residual": float(field.residual),
         "max_closing_error": float(field.max_closing_error),
         "seconds": {stage: round(time, 6) for stage, time in solution.seconds.items()},
@@ -59,19 +62,34 @@ def report(solution: Solution) -> dict[str, Any]:
 
 
 def summary(solution: Solution) -> str:
-    """The verdict in one line."""
-    budget = f"index {solution.field.index_sum} of {solution.field.index_required}"
+    """The method, what it reached, and the verdict, in one line."""
+    field, verdict = solution.field, solution.verdict
+    said = f"{verdict.status}: {solution.problem.method}, "
+    said += f"index {field.index_sum} of {field.index_required}, "
+    if solution.integrated is None:
+        said += _defects(solution)
+    elif field.convergence.energies:
+        steps = len(field.convergence.energies) - 1
+        said += f"E {field.convergence.energies[0]:.3g} -> {field.energy:.3g}, {steps} steps"
+        said += "" if field.convergence.converged else ", not converged"
+    else:
+        said += f"E {field.energy:.3g}"
+    return said if verdict.status == "valid" else f"{said}. {verdict.reason}"
+
+
+def _defects(solution: Solution) -> str:
+    """The holonomy defects of the configuration in a few words."""
     tolerance = solution.problem.options.tolerance_degrees
     defects = np.abs(np.degrees(solution.holonomy_defects))
     if not defects.size:
-        return f"valid: {budget}, no holonomy condition on this surface"
+        return "no holonomy condition on this surface"
     if solution.valid:
-        return f"valid: {budget}, {defects.size} holonomy defects below {tolerance:g} degrees"
+        return f"{defects.size} holonomy defects below {tolerance:g} degrees"
     worst = solution.solver.holonomy.conditions[int(defects.argmax())]
     off = int((defects >= tolerance).sum())
     return (
-        f"not valid: {budget}, {off} of {defects.size} holonomy defects not below {tolerance:g} "
-        f"degrees, the worst {defects.max():.3f} degrees ({worst.label})"
+        f"{off} of {defects.size} holonomy defects not below {tolerance:g} degrees, "
+        f"the worst {defects.max():.3f} degrees ({worst.label})"
     )
 
 
@@ -97,6 +115,24 @@ def write_files(solution: Solution, directory: Path) -> None:
     singularity_points(solution).save(directory / "singularities.vtp")
     text = json.dumps(report(solution), indent=2, ensure_ascii=False, allow_nan=False)
     (directory / REPORT).write_text(text + "\n", encoding="utf-8")
+
+
+def _integrability(solution: Solution) -> dict[str, Any]:
+    """E before and after, and the verdict."""
+    field = solution.field
+    history = _floats(field.convergence.energies)
+    return {
+        "energy_initial": history[0] if history else field.energy,
+        "energy_final": field.energy,
+        "energy_history": history,
+        "iterations": max(len(history) - 1, 0),
+        "converged": field.convergence.converged,
+        "max_log_aspect": field.max_log_aspect,
+        "aspect_growth": solution.growth,
+        "flips": solution.flips,
+        "verdict": solution.verdict.status,
+        "verdict_reason": solution.verdict.reason,
+    }
 
 
 def _singularities(solution: Solution) -> list[dict[str, Any]]:

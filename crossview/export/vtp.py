@@ -15,39 +15,42 @@ ARM = 0.35
 
 
 def field_surface(solution: Solution) -> pv.PolyData:
-    """The surface solved on: point data H; cell data theta (radians), u, v (unit vectors)."""
+    """The surface solved on, with the field.
+
+    Point data: H, the mean of the two log sizes. Cell data: theta (radians), u, v (unit vectors),
+    H1 and H2 (log sizes along u and v at the barycentre), log_aspect = |H2 - H1| and
+    error_density, which integrates to the square of E.
+    """
     field = solution.field
     mesh = pv.PolyData.from_regular_faces(solution.surface.vertices, solution.surface.faces)
     mesh.point_data["H"] = field.H
     mesh.cell_data["theta"] = field.theta
     mesh.cell_data["u"] = field.u
     mesh.cell_data["v"] = field.v
+    mesh.cell_data["H1"] = field.H1.mean(axis=1)
+    mesh.cell_data["H2"] = field.H2.mean(axis=1)
+    mesh.cell_data["log_aspect"] = field.log_aspect
+    mesh.cell_data["error_density"] = field.error_density
     return mesh
 
 
 def cross_lines(solution: Solution) -> pv.PolyData:
-    """Two lines per triangle along u and v, their length proportional to exp(H).
+    """Two lines per triangle along u and v, their lengths proportional to exp(H1) and exp(H2).
 
-    Cell data: "face" the triangle of ``surface.vtp``, "axis" 0 for u and 1 for v, "H" there.
+    Cell data: "face" the triangle of ``surface.vtp``, "axis" 0 for u and 1 for v, "H" the log
+    size along the line.
     """
     field, surface = solution.field, solution.surface
-    H = field.H[surface.faces].mean(axis=1)
+    H = np.stack([field.H1.mean(axis=1), field.H2.mean(axis=1)], axis=1)
     # a typical cross just fits its triangle
     typical = ARM * np.sqrt(np.median(surface.face_areas))
-    arm = (typical * np.exp(H - np.median(H)))[:, None]
-    ends = np.stack(
-        [
-            surface.barycentres + sign * arm * axis
-            for axis in (field.u, field.v)
-            for sign in (-1, 1)
-        ],
-        axis=1,
-    )
+    arms = (typical * np.exp(H - np.median(H)))[..., None] * np.stack([field.u, field.v], axis=1)
+    ends = surface.barycentres[:, None, None] + np.stack([-arms, arms], axis=2)
     lines = np.arange(4 * surface.n_faces).reshape(-1, 2)
     mesh = _lines(ends.reshape(-1, 3), lines)
     mesh.cell_data["face"] = np.repeat(np.arange(surface.n_faces), 2)
     mesh.cell_data["axis"] = np.tile([0, 1], surface.n_faces)
-    mesh.cell_data["H"] = np.repeat(H, 2)
+    mesh.cell_data["H"] = H.reshape(-1)
     return mesh
 
 

@@ -65,7 +65,7 @@ def refused(ran, tmp_path, *said):
     [
         ({"surface": "none.obj"}, ["no such file", "none.obj"]),
         ({"surface": "torus", "metod": "x"}, ['unknown key "metod"', 'did you mean "method"?']),
-        ({"surface": "torus", "method": "aligned"}, ['"aligned" is not', "available: isotropic"]),
+        ({"surface": "torus", "method": "algned"}, ['unknown method "algned"', 'mean "aligned"?']),
         ({"surface": {"builtin": "torus", "n": -1}}, ["n must be", "(built-in torus)"]),
         ({"surface": {"builtin": "torus", "n": "many"}}, ["n must be", "'many'"]),
         ({"surface": {"builtin": "planar", "holes": 3}}, ["holes must be a list"]),
@@ -134,7 +134,7 @@ def test_a_wrong_case_is_refused(crossview, tmp_path, case, said):
         (["torrus"], ["no such file", 'did you mean "torus"?']),
         (["missing.obj"], ["no such file (missing.obj)"]),
         (["solve", "missing.json", "-o", "out"], ["No such file", "missing.json"]),
-        (["solve", "torus", "-o", "out", "--method", "anisotropic"], ["available: isotropic"]),
+        (["solve", "torus", "-o", "out", "--method", "newton"], ["newton", "known: aligned, alt"]),
         (["solve", "torus", "-o", "out", "--component", "big"], ['"big"', "largest, all or"]),
         (["solve", "torus", "-o", "file/out"], ["cannot write, Not a directory", "file/out"]),
         (["solve", "torus", "-o", "file"], ["cannot write, Not a directory", "file"]),
