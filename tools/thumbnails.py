@@ -7,12 +7,12 @@ from PIL import Image
 from crossview.case import Case
 from crossview.export.raster import picture
 from crossview.gallery import path_of
+from crossview.gui.empty_state import FEATURED
 from crossview.pipeline import Pipeline, Problem
 from crossview.scene import field_view, layers_named
 from solvers.progress import run
 
 FOLDER = Path(__file__).parents[1] / "resources" / "thumbnails"
-CASES = ("sphere-cube", "disk-4", "suboptimal-a")
 SIZE = (416, 312)
 
 
@@ -31,5 +31,5 @@ def thumbnail(name: str) -> Image.Image:
     return framed.quantize(200, method=Image.Quantize.FASTOCTREE)
 
 
-for case in CASES:
+for case, _ in FEATURED:
     thumbnail(case).save(FOLDER / f"{case}.png", optimize=True)

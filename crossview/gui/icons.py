@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cache
 from importlib.resources import files
 
@@ -45,44 +46,40 @@ def _icon(name: str, color: str, disabled: str) -> QIcon:
 
 def valence_icon(valence: int | None, text: str | None = None) -> QIcon:
     """Return a disk in the colour of `valence` with its number, or grey with `text`."""
-    made = QIcon()
-    for size in SIZES:
-        pixmap = QPixmap(size, size)
-        pixmap.fill(Qt.GlobalColor.transparent)
-        with QPainter(pixmap) as painter:
-            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-            _paint_disk(painter, QRectF(0, 0, size, size), valence, text)
-        made.addPixmap(pixmap)
-    return made
-
-
-def _paint_disk(painter: QPainter, area: QRectF, valence: int | None, text: str | None) -> None:
     color = QColor("#8a8f98") if valence is None else QColor(valence_color(valence))
-    inset = area.width() * 0.08
-    painter.setPen(Qt.PenStyle.NoPen)
-    painter.setBrush(color)
-    painter.drawEllipse(area.adjusted(inset, inset, -inset, -inset))
-    font = painter.font()
-    font.setPixelSize(max(7, round(area.height() * 0.56)))
-    font.setBold(True)
-    painter.setFont(font)
-    painter.setPen(QColor("white") if color.lightnessF() < 0.6 else QColor("#222222"))
-    label = text if text is not None else str(valence)
-    painter.drawText(area, Qt.AlignmentFlag.AlignCenter, label)
+
+    def paint(painter: QPainter, area: QRectF) -> None:
+        _paint_disk(painter, area, color, 0.08)
+        font = painter.font()
+        font.setPixelSize(max(7, round(area.height() * 0.56)))
+        font.setBold(True)
+        painter.setFont(font)
+        painter.setPen(QColor("white") if color.lightnessF() < 0.6 else QColor("#222222"))
+        painter.drawText(area, Qt.AlignmentFlag.AlignCenter, text or str(valence))
+
+    return _painted(paint)
 
 
 def dot_icon(color: str) -> QIcon:
     """Return a small plain disk: a verdict or a valence in a table."""
+    return _painted(lambda painter, area: _paint_disk(painter, area, QColor(color), 0.22))
+
+
+def _painted(paint: Callable[[QPainter, QRectF], None]) -> QIcon:
     made = QIcon()
     for size in SIZES:
         pixmap = QPixmap(size, size)
         pixmap.fill(Qt.GlobalColor.transparent)
         with QPainter(pixmap) as painter:
             painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-            painter.setPen(Qt.PenStyle.NoPen)
-            painter.setBrush(QColor(color))
-            inset = size * 0.22
-            painter.drawEllipse(QRectF(inset, inset, size - 2 * inset, size - 2 * inset))
+            paint(painter, QRectF(0, 0, size, size))
         made.addPixmap(pixmap)
         made.addPixmap(pixmap, QIcon.Mode.Selected)  # else a selected row tints it
     return made
+
+
+def _paint_disk(painter: QPainter, area: QRectF, color: QColor, inset: float) -> None:
+    margin = inset * area.width()
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(color)
+    painter.drawEllipse(area.adjusted(margin, margin, -margin, -margin))

@@ -27,7 +27,7 @@ from crossview.gui.workspace import Workspace
 from crossview.scene import Scene, software_renderer
 from crossview.scene.singularities import marker_radius
 
-LATE_MS = 80
+LATE_MS = 120
 """How long a dragged singularity waits to be drawn together with its field."""
 REST_MS = 300
 """How long nothing may move before a smooth picture is drawn on a software renderer."""

@@ -110,15 +110,7 @@ def far_points(
         chosen.append(int(np.argmax(distance)))
         from_new = dijkstra(graph, indices=chosen[-1])
         distance = np.minimum(distance, from_new) if chosen[1:] or sources.size else from_new
-    return tuple(vertex_point(surface, vertex) for vertex in chosen)
-
-
-def vertex_point(surface: TriSurface, vertex: int) -> SurfacePoint:
-    """Return `vertex` as a point of one of its faces."""
-    face, corner = np.argwhere(surface.faces == vertex)[0]
-    weights = [0.0, 0.0, 0.0]
-    weights[corner] = 1.0
-    return SurfacePoint(int(face), (weights[0], weights[1], weights[2]))
+    return tuple(surface.point_at_vertex(vertex) for vertex in chosen)
 
 
 def _edge_graph(surface: TriSurface) -> csr_array:
