@@ -30,9 +30,7 @@ class Heard:
 
     def wait_for(self, wanted: Callable[[JobEvent], bool]) -> JobEvent:
         with self._changed:
-            found = self._changed.wait_for(
-                lambda: any(map(wanted, self.events)), timeout=PATIENCE
-            )
+            found = self._changed.wait_for(lambda: any(map(wanted, self.events)), timeout=PATIENCE)
             assert found, self.events
             return next(event for event in self.events if wanted(event))
 

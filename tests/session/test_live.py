@@ -72,9 +72,7 @@ def test_points_go_to_the_refined_surface_and_back(document: Document, base: Liv
         )
 
 
-def test_what_is_not_yet_solved_is_located_by_position(
-    document: Document, base: LiveBase
-) -> None:
+def test_what_is_not_yet_solved_is_located_by_position(document: Document, base: LiveBase) -> None:
     new = Singularity(document.surface.closest_point((0.0, 0.8, 0.0)), 5)
     edit = LiveEdit.start(document.with_singularities([*document.singularities, new]), base)
     np.testing.assert_allclose(

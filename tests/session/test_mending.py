@@ -11,9 +11,7 @@ from solvers.singularities import Singularity
 
 def document(surface: dict, *singularities: tuple[list[float], int]) -> Document:
     placed = [{"position": p, "valence": v} for p, v in singularities]
-    return Document.from_case(
-        "case", Case.from_json({"surface": surface, "singularities": placed})
-    )
+    return Document.from_case("case", Case.from_json({"surface": surface, "singularities": placed}))
 
 
 def test_a_bare_sphere_is_offered_one_or_all_eight() -> None:
