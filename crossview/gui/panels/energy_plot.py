@@ -1,0 +1,112 @@
+"""A small plot of the integrability error E over the iterations, on a logarithmic scale."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPainterPath, QPaintEvent, QPen
+from PySide6.QtWidgets import QWidget
+
+FLOOR = 1e-16
+"""What an E of zero is drawn as."""
+
+LINE = QColor("#2f6fde")
+MARGIN, DOT = 8.0, 2.5
+MOST_DOTS = 60
+
+
+class EnergyPlot(QWidget):
+    """Shows E at the start and after each iteration; decades as lines, the last value as text."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.energies: tuple[float, ...] = ()
+        self.setMinimumHeight(96)
+        self.setAccessibleName("E by iteration")
+
+    def sizeHint(self) -> QSize:
+        """A size that suits a dock."""
+        return QSize(220, 140)
+
+    def show_energies(self, energies: Sequence[float]) -> None:
+        """Draw these values of E."""
+        if tuple(energies) != self.energies:
+            self.energies = tuple(energies)
+            last = f"{self.energies[-1]:.1e}" if energies else "none"
+            self.setToolTip(f"{max(len(self.energies) - 1, 0)} iterations, E = {last}")
+            self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint axes, decades and values."""
+        with QPainter(self) as painter:
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            metrics = QFontMetricsF(self.font())
+            left = metrics.horizontalAdvance("1e-16") + MARGIN
+            frame = QRectF(self.rect()).adjusted(
+                left, MARGIN + metrics.height() / 2, -MARGIN - DOT, -MARGIN - metrics.height()
+            )
+            faint = self.palette().color(self.foregroundRole())
+            faint.setAlphaF(0.55)
+            if not self.energies:
+                painter.setPen(faint)
+                painter.drawText(self.rect(), Qt.AlignmentFlag.AlignCenter, "No iterations yet")
+                return
+            logs = [math.log10(max(energy, FLOOR)) for energy in self.energies]
+            low, high = _decades(logs)
+            self._paint_grid(painter, frame, low, high, faint)
+            self._paint_values(painter, frame, logs, low, high)
+
+    def _paint_grid(
+        self, painter: QPainter, frame: QRectF, low: int, high: int, faint: QColor
+    ) -> None:
+        metrics = QFontMetricsF(self.font())
+        rule = QColor(faint)
+        rule.setAlphaF(0.15)
+        most = max(1, int(frame.height() / (1.6 * metrics.height())))
+        step = max(1, math.ceil((high - low) / most))
+        for decade in range(high, low - 1, -step):
+            y = frame.bottom() - frame.height() * (decade - low) / (high - low)
+            painter.setPen(QPen(rule, 1))
+            painter.drawLine(QPointF(frame.left(), y), QPointF(frame.right(), y))
+            painter.setPen(faint)
+            text = "1" if decade == 0 else f"1e{decade}"
+            place = QRectF(0, y - metrics.height() / 2, frame.left() - 4, metrics.height())
+            painter.drawText(
+                place, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter, text
+            )
+        below = QRectF(frame.left(), frame.bottom() + 2, frame.width(), metrics.height())
+        painter.setPen(faint)
+        painter.drawText(below, Qt.AlignmentFlag.AlignLeft, "0")
+        count = str(len(self.energies) - 1)
+        if len(self.energies) > 1:
+            painter.drawText(below, Qt.AlignmentFlag.AlignRight, count)
+        painter.drawText(below, Qt.AlignmentFlag.AlignHCenter, "iterations")
+
+    def _paint_values(
+        self, painter: QPainter, frame: QRectF, logs: Sequence[float], low: int, high: int
+    ) -> None:
+        across = frame.width() / max(len(logs) - 1, 1)
+        points = [
+            QPointF(
+                frame.left() + i * across,
+                frame.bottom() - frame.height() * (value - low) / (high - low),
+            )
+            for i, value in enumerate(logs)
+        ]
+        path = QPainterPath(points[0])
+        for point in points[1:]:
+            path.lineTo(point)
+        painter.setPen(QPen(LINE, 1.5))
+        painter.drawPath(path)
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(LINE)
+        for point in points if len(points) <= MOST_DOTS else points[-1:]:
+            painter.drawEllipse(point, DOT, DOT)
+
+
+def _decades(logs: Sequence[float]) -> tuple[int, int]:
+    """Return the whole decades around values, at least one apart."""
+    low, high = math.floor(min(logs)), math.ceil(max(logs))
+    return low, max(high, low + 1)
