@@ -85,6 +85,7 @@ class Viewport(QWidget):
         self.picker.aim(new.shown_surface)
         # One frame for the dot and its field, unless the field takes too long: frames cost more.
         if dragging and new.field is not None and new.field is old.field:
+            self._rest.stop()
             if not self._late.isActive():
                 self._late.start()
             return
