@@ -11,6 +11,7 @@ from cyclopts import App, CycloptsError
 from crossview import __version__
 from crossview.cli.info import info
 from crossview.cli.make_valid import make_valid
+from crossview.cli.natural import natural
 from crossview.cli.render import gallery, render
 from crossview.cli.solve import solve
 from crossview.cli.terminal import complain
@@ -27,7 +28,7 @@ app = App(
     suppress_keyboard_interrupt=False,
 )
 app.default(window)
-for command in (info, solve, render, gallery, make_valid):
+for command in (info, solve, render, gallery, natural, make_valid):
     app.command(command)
 
 

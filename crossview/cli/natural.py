@@ -1,0 +1,51 @@
+"""crossview natural: a case with the singularities that appear by themselves."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from crossview.cli.options import Flag, Output, chosen_case
+from crossview.cli.terminal import say, watch
+from crossview.problem import Problem
+from solvers.natural import METHODS, natural_singularities
+from solvers.singularities import require_budget
+
+
+def natural(
+    surface: str,
+    /,
+    *,
+    output: Output,
+    method: str = METHODS[0],
+    seed: int = 0,
+    component: str | None = None,
+    repair: Flag = False,
+    quiet: Flag = False,
+) -> None:
+    """Place the singularities of a smooth boundary-aligned cross-field.
+
+    Parameters
+    ----------
+    surface
+        A surface file, a case (its singularities are replaced) or the name of a built-in surface.
+    output
+        The new case file.
+    method
+        mbo, ginzburg-landau or globally-optimal.
+    seed
+        Of the random start.
+    component
+        Of a surface in several pieces: largest or a number (0 is the largest).
+    repair
+        Also mend what cannot be mended without changing the surface.
+    quiet
+        Show neither progress nor summary.
+    """
+    found = chosen_case(surface, component=component, repair=repair)
+    problem = replace(Problem.from_case(found), singularities=(), corners=None)
+    singularities = watch(natural_singularities(problem.surface, method, seed), quiet)
+    require_budget(problem.surface, singularities, problem.chosen_corners)
+    placed = replace(problem, singularities=singularities)
+    placed.to_case(found.surface, found.title).save(output)
+    if not quiet:
+        say(f"{len(singularities)} singularities; wrote {output}")
