@@ -44,8 +44,8 @@ def render(
     path : path-like
         PNG, or SVG or PDF for curves and crosses as vectors.
     layers : sequence of str, optional
-        Names of the layers drawn: surface, H, theta, crosses, singularities, cut, boundary,
-        legend, axes. By default what the window shows at first.
+        Names of the layers drawn: surface, H, theta, H1, H2, aspect, error, crosses,
+        singularities, cut, boundary, legend, axes. By default what the window shows at first.
     size : (int, int)
         Width and height; pixels if the scale is 1.
     scale : float

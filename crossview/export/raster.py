@@ -84,15 +84,15 @@ class Seen:
         From space to right, up and towards the eye.
     depth : (height, width) float
         Of the surface: 0 near to 1 far and where nothing is; the bottom row first.
-    h_range : (float, float)
-        Limits of the colours of H.
+    limits : (float, float)
+        Of the colours of the scalar shown.
     """
 
     size: tuple[int, int]
     matrix: FloatArray
     turn: FloatArray
     depth: npt.NDArray[np.float32]
-    h_range: tuple[float, float]
+    limits: tuple[float, float]
 
     def project(self, points: FloatArray) -> FloatArray:
         """Return (..., 3): pixels to the right and up from the bottom left, and depth."""
@@ -127,7 +127,7 @@ def seen(view: SceneView, size: tuple[int, int], camera: str | Camera) -> Seen:
         seen_with = plotter.renderer.GetActiveCamera()
         matrix = seen_with.GetCompositeProjectionTransformMatrix(size[0] / size[1], -1.0, 1.0)
         turn = rows(seen_with.GetViewTransformMatrix())[:3, :3]
-        return Seen(size, rows(matrix), turn, depth, scene.h_range)
+        return Seen(size, rows(matrix), turn, depth, scene.limits)
 
 
 def check_size(size: tuple[int, int], scale: float) -> tuple[int, int]:

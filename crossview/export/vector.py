@@ -23,9 +23,9 @@ from crossview.scene.colors import CROSS, CUT, CUT_HALO, LOOP, THEMES, color_tab
 from crossview.scene.crosses import CrossGlyphs
 from crossview.scene.curves import CUT_DASH, CUT_GAP
 from crossview.scene.geometry import Triangles, dashes
+from crossview.scene.scalars import SCALARS, bar_texts, shown_scalar
 from crossview.scene.singularities import DISC_PAINTS, DISC_PARTS, marker_radius
 from crossview.scene.style import TOWARDS, WIDTH
-from crossview.scene.surface import DEFAULT_MAPS, shown_scalar
 
 # Pixels of the layout per inch on paper: 1600 x 1200 is 8 by 6 inches.
 _DPI = 200.0
@@ -59,7 +59,7 @@ def save_vector(
             _draw_singularities(sheet, view, triangles)
             _draw_axes(sheet, view, eye)
         _write_legend(sheet, view, size[1] / pixel_ratio(size))
-        _draw_bar(sheet, view, size[0] / pixel_ratio(size), eye.h_range)
+        _draw_bar(sheet, view, size[0] / pixel_ratio(size), eye.limits)
         if path.suffix.lower() == ".svg":
             FigureCanvasSVG(figure).print_svg(path, metadata={"Date": None})
         else:
@@ -70,7 +70,7 @@ def _only_surface(view: SceneView) -> SceneView:
     """Return the view without what is drawn as vectors; the room for the texts is kept."""
     layers = {
         kind.name: view.layer(kind.name)
-        if kind.name in ("surface", "H", "theta")
+        if kind.name in ("surface", *SCALARS)
         else replace(view.layer(kind.name), visible=False)
         for kind in LAYERS
     }
@@ -81,7 +81,9 @@ def _draw_crosses(sheet: Sheet, view: SceneView, triangles: Triangles) -> None:
     settings = view.layer("crosses")
     if settings.visible and view.u is not None and view.v is not None:
         glyphs = CrossGlyphs(triangles, settings.density)
-        ends = glyphs.ends(view.u, view.v, view.H, settings.size, settings.uniform)
+        ends = glyphs.ends(
+            view.u, view.v, view.H, settings.size, settings.uniform, view.half_log_aspect
+        )
         segments = ends.reshape(-1, 2, 3)
         sheet.lines(segments, CROSS, WIDTH["crosses"], TOWARDS["crosses"], settings.opacity)
 
@@ -146,11 +148,11 @@ def _draw_bar(sheet: Sheet, view: SceneView, width: float, limits: tuple[float, 
     right = width - legend.MARGIN
     left = right - legend.BAR_WIDTH
     levels = legend.FOOT + np.linspace(0.0, legend.BAR_HEIGHT, legend.BAR_COLORS + 1)
-    name = settings.color_map or DEFAULT_MAPS[shown]
+    name = settings.color_map or SCALARS[shown].color_map
     colors = color_table(name, settings.opacity, legend.BAR_COLORS) / 255.0
     sheet.column(left, right, levels, colors)
-    words = legend.bar_texts(shown, limits)
+    words = bar_texts(shown, limits)
     for word, y in zip(words, np.linspace(levels[0], levels[-1], len(words)), strict=True):
         sheet.word(word, (left - legend.BAR_GAP, float(y)), ink, "right", legend.TEXT_SIZE)
     above = (0.5 * (left + right), float(levels[-1]) + legend.BAR_TITLE)
-    sheet.word(legend.BAR_TITLES[shown], above, ink, "center", legend.TEXT_SIZE + 1.0)
+    sheet.word(SCALARS[shown].title, above, ink, "center", legend.TEXT_SIZE + 1.0)

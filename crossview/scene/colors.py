@@ -42,11 +42,11 @@ COLOR_MAPS = {
     "romaO": cm.romaO,
     "vikO": cm.vikO,
     "corkO": cm.corkO,
-    "lajolla": cm.lajolla,
+    "lajolla": cm.lajolla_r,
 }
 DIVERGING = ("vik", "broc", "cork", "roma")
 CYCLIC = ("romaO", "vikO", "corkO")
-_DARK_END = 0.07
+_DARK_ENDS = dict.fromkeys(DIVERGING, (0.07, 0.07)) | {"lajolla": (0.0, 0.32)}
 
 
 @dataclass(frozen=True)
@@ -94,8 +94,8 @@ def color_table(name: str, over: float = 1.0, size: int = 256) -> npt.NDArray[np
     (size, 4) uint8
     """
     color_map: ListedColormap = COLOR_MAPS[name]
-    # The outer ends of the diverging maps are near black: dark lines would be lost on them.
-    end = _DARK_END if name in DIVERGING else 0.0
-    table: npt.NDArray[Any] = np.asarray(color_map(np.linspace(end, 1.0 - end, size)))
+    # Ends are near black in the diverging and sequential maps: dark lines would be lost on them.
+    low, high = _DARK_ENDS.get(name, (0.0, 0.0))
+    table: npt.NDArray[Any] = np.asarray(color_map(np.linspace(low, 1.0 - high, size)))
     table[:, :3] = over * table[:, :3] + (1.0 - over) * np.array(rgb(SURFACE))
     return np.round(255.0 * table).astype(np.uint8)

@@ -17,7 +17,7 @@ from crossview.scene.watch import Watch
 _NUMBER, _NUMBER_PLANAR = 2200, 1400
 # Half the length of a middling cross, in distances between crosses.
 _ARM = 0.38
-# exp(H) is shown within these factors of the middling size, so that all stay readable.
+# Sizes are shown within these factors of the middling one, so that all stay readable.
 _SMALLEST, _LARGEST = 0.3, 1.75
 
 
@@ -42,8 +42,9 @@ class CrossesLayer:
         if fresh or self._glyphs is None:
             self._glyphs = CrossGlyphs(triangles, settings.density)
         style = (settings.size, settings.uniform)
-        if self._watch.changed("field", view.H, view.u, view.v, style) or fresh:
-            points = self._glyphs.ends(view.u, view.v, view.H, *style)
+        half = view.half_log_aspect
+        if self._watch.changed("field", view.H, view.u, view.v, half, style) or fresh:
+            points = self._glyphs.ends(view.u, view.v, view.H, *style, half)
             if fresh:
                 self._actor.replace(points, lines=np.arange(len(points)).reshape(-1, 2))
             else:
@@ -73,15 +74,25 @@ class CrossGlyphs:
         self._longest = 0.95 * self.sites.free
 
     def ends(
-        self, u: FloatArray, v: FloatArray, H: FloatArray | None, size: float, uniform: bool
+        self,
+        u: FloatArray,
+        v: FloatArray,
+        H: FloatArray | None,
+        size: float,
+        uniform: bool,
+        half_log_aspect: FloatArray | None = None,
     ) -> FloatArray:
         """Return (4 k, 3): for each cross the ends of its line along u, then along v."""
         sites = self.sites
-        arm = np.full(len(sites.faces), _ARM * size * sites.spacing)
+        arms = np.full((2, len(sites.faces)), _ARM * size * sites.spacing)
         if H is not None and not uniform:
             h = np.einsum("kc,kc->k", H[self._corners], sites.weights)
-            arm *= np.clip(np.exp(h - np.median(h)), _SMALLEST, _LARGEST)
-        arm = np.minimum(arm, self._longest)[:, None]
-        along, across = arm * u[sites.faces], arm * v[sites.faces]
+            half = np.zeros_like(h)
+            if half_log_aspect is not None:
+                half = np.einsum("kc,kc->k", half_log_aspect[sites.faces], sites.weights)
+            sizes = np.exp(np.stack([h - half, h + half]) - np.median(h))
+            arms *= np.clip(sizes, _SMALLEST, _LARGEST)
+        arms = np.minimum(arms, self._longest)[:, :, None]
+        along, across = arms[0] * u[sites.faces], arms[1] * v[sites.faces]
         c = sites.positions
         return np.stack([c - along, c + along, c - across, c + across], axis=1).reshape(-1, 3)

@@ -33,6 +33,8 @@ def field_view(field: CrossField, cut_graph: IntArray | None = None, **others: A
         surface.vertices,
         surface.faces,
         H=field.H,
+        half_log_aspect=field.half_log_aspect,
+        error_density=field.error_density,
         u=field.u,
         v=field.v,
         cut_graph=cut_graph,

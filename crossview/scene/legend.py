@@ -8,7 +8,7 @@ import pyvista as pv
 from crossview.scene.colors import THEMES, color_table, valence_color
 from crossview.scene.geometry import IntArray, Triangles
 from crossview.scene.overlay import Label, Patches, bytes_of, discs
-from crossview.scene.surface import DEFAULT_MAPS, shown_scalar
+from crossview.scene.scalars import SCALARS, bar_texts, shown_scalar
 from crossview.scene.view import SceneView
 from crossview.scene.watch import Watch
 
@@ -17,7 +17,6 @@ TEXT_SIZE, TITLE_SIZE = 13.0, 15.0
 # The colour bar in pixels; its texts stand to the left of it.
 BAR_WIDTH, BAR_HEIGHT, BAR_COLORS = 14.0, 170.0, 128
 BAR_GAP, BAR_TITLE = 7.0, 16.0
-BAR_TITLES = {"H": "H", "theta": "θ", "": ""}
 # Room that the colour bar and the legend need on the right and at the bottom.
 BAR_ROOM, LEGEND_ROOM = 96.0, 46.0
 # Height of the legend's line and of the colour bar's foot.
@@ -92,7 +91,7 @@ def legend_layout(valences: list[int]) -> tuple[list[tuple[str, float]], list[fl
 
 
 class ColorBarLayer:
-    """The colours of H or of theta with their limits, at the bottom right; never moves."""
+    """The colours of the scalar shown with their limits, at the bottom right; never moves."""
 
     def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float) -> None:
         self._ratio = pixel_ratio
@@ -104,15 +103,17 @@ class ColorBarLayer:
         self._watch = Watch()
 
     def show_range(self, view: SceneView, limits: tuple[float, float]) -> None:
-        """Apply what changed; `limits` are those of H in use."""
+        """Apply what changed; `limits` are those in use."""
         shown = shown_scalar(view)
         settings = view.layer(shown or "H")
-        name = settings.color_map or DEFAULT_MAPS[shown or "H"]
+        name = settings.color_map or SCALARS[shown or "H"].color_map
         if not self._watch.changed("bar", shown, name, settings.opacity, limits, view.background):
             return
         color = THEMES[view.background].text
         texts = bar_texts(shown, limits) if shown else [""] * 5
-        self._title.show(BAR_TITLES[shown], self._at(0.5, BAR_HEIGHT + BAR_TITLE), color)
+        self._title.show(
+            SCALARS[shown].title if shown else "", self._at(0.5, BAR_HEIGHT + BAR_TITLE), color
+        )
         for i, (label, text) in enumerate(zip(self._ticks, texts, strict=True)):
             x, y = self._at(0.0, BAR_HEIGHT * i / 4.0)
             label.show(text, (x - BAR_GAP * self._ratio, y), color)
@@ -140,14 +141,3 @@ class ColorBarLayer:
         i = np.arange(n)
         cells = np.stack([i, n + 1 + i, n + 2 + i, i + 1], axis=1)
         self._patches.show(np.vstack([left, right]), cells, colors)
-
-
-def bar_texts(shown: str, limits: tuple[float, float]) -> list[str]:
-    """Return the five numbers beside the colour bar, from its foot up."""
-    if shown == "theta":
-        return ["0°", "", "45°", "", "90°"]
-    values = np.linspace(*limits, 5)
-    step = (limits[1] - limits[0]) / 4.0
-    digits = max(0, 1 - int(np.floor(np.log10(step)))) if step > 0.0 else 1
-    texts = [f"{value:.{digits}f}" for value in values]
-    return [text.replace("-", "−") if float(text) else "0" for text in texts]

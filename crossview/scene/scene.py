@@ -22,8 +22,9 @@ from crossview.scene.legend import (
     ValenceLegendLayer,
 )
 from crossview.scene.problems import ProblemLayer
+from crossview.scene.scalars import shown_scalar
 from crossview.scene.singularities import SingularitiesLayer
-from crossview.scene.surface import SurfaceLayer, shown_scalar
+from crossview.scene.surface import SurfaceLayer
 from crossview.scene.view import SceneView
 from crossview.scene.watch import Watch
 
@@ -90,6 +91,11 @@ class Scene:
         """The limits of the colours of H last shown."""
         return self._surface.h_range
 
+    @property
+    def limits(self) -> tuple[float, float]:
+        """The limits of the colours of the scalar shown; of the error density powers of 10."""
+        return self._surface.limits
+
     def show(self, view: SceneView) -> bool:
         """Show a view: touch only what changed since the last one.
 
@@ -107,7 +113,7 @@ class Scene:
         for layer in self._layers:
             layer.show(view, self._triangles)
         if self._bar is not None:
-            self._bar.show_range(view, self.h_range)
+            self._bar.show_range(view, self.limits)
         self._view = view
         return True
 

@@ -1,4 +1,4 @@
-"""The surface layer: light grey with soft shading, coloured by H or by theta."""
+"""The surface layer: light grey with soft shading, coloured by a scalar."""
 
 from __future__ import annotations
 
@@ -10,23 +10,21 @@ from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
 
 from crossview.scene.actors import MeshActor
 from crossview.scene.colors import SURFACE, color_table, rgb
-from crossview.scene.field import cross_angle
 from crossview.scene.geometry import FloatArray, IntArray, Triangles
+from crossview.scene.scalars import SCALARS, Limits, scalar_limits, scalar_values, shown_scalar
 from crossview.scene.style import WIDTH
 from crossview.scene.view import SceneView
 from crossview.scene.watch import Watch
 
 # Edges sharper than this, in degrees, stay sharp in the shading.
 _FEATURE_ANGLE = 50.0
-# Sizes that differ by less than a percent are not worth a colour.
-_LEAST_LIMIT = 0.01
 _EDGE_COLOR = "#9aa0a8"
 # Light that comes from everywhere; the rest comes from the scene's lights.
 AMBIENT = 0.44
 
 
 class SurfaceLayer:
-    """Triangles and the scalar on them: theta if visible, else H if visible, else grey."""
+    """Triangles and the scalar on them; grey if there is none."""
 
     def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float) -> None:
         self._actor = MeshActor(plotter, "surface")
@@ -44,7 +42,8 @@ class SurfaceLayer:
         style.SetDiffuse(1.0 - AMBIENT)
         style.SetSpecular(0.0)
         style.SetEdgeColor(*rgb(_EDGE_COLOR))
-        self.h_range = (-1.0, 1.0)
+        self.h_range: Limits = (-1.0, 1.0)
+        self.limits: Limits = (-1.0, 1.0)
 
     def show(self, view: SceneView, triangles: Triangles | None) -> None:
         """Apply what changed."""
@@ -81,20 +80,22 @@ class SurfaceLayer:
 
     def _color(self, view: SceneView, shown: str, triangles: Triangles) -> None:
         settings = view.layer(shown)
-        name = settings.color_map or DEFAULT_MAPS[shown]
+        name = settings.color_map or SCALARS[shown].color_map
         if self._watch.changed("map", name, settings.opacity):
             colors = color_table(name, settings.opacity)
             self._table.SetTable(numpy_to_vtk(colors, deep=True))
-        data = view.H if shown == "H" else view.u
-        if data is None or not self._watch.changed(
-            "scalar", shown, data, triangles, settings.value_range
-        ):
+        data = (view.u,) if shown == "theta" else (view.H, view.half_log_aspect)
+        data = (view.error_density,) if shown == "error" else data
+        if not self._watch.changed("scalar", shown, *data, triangles, settings.value_range):
             return
+        values = scalar_values(view, shown, triangles)
+        if values is None:
+            return
+        self.limits = scalar_limits(view, shown, triangles, values)
         if shown == "H":
-            self.h_range = settings.value_range or symmetric_range(data, triangles.vertex_areas)
-            self._set_scalars(data[self._origin], self.h_range, cells=False)
-        else:
-            self._set_scalars(cross_angle(triangles, data), (0.0, np.pi / 2), cells=True)
+            self.h_range = self.limits
+        cells = SCALARS[shown].cells
+        self._set_scalars(values if cells else values[self._origin], self.limits, cells)
 
     def _set_scalars(self, values: FloatArray, limits: tuple[float, float], cells: bool) -> None:
         mesh, mapper = self._actor.mesh, self._actor.mapper
@@ -113,38 +114,6 @@ class SurfaceLayer:
             mapper.SetScalarModeToUsePointFieldData()
         mapper.SelectColorArray("scalar")
         self._table.SetTableRange(*limits)
-
-
-DEFAULT_MAPS = {"H": "vik", "theta": "romaO"}
-
-
-def shown_scalar(view: SceneView) -> str:
-    """Return which scalar colours the surface: "theta", "H" or "" for none."""
-    if view.layer("theta").visible and view.u is not None:
-        return "theta"
-    return "H" if view.layer("H").visible and view.H is not None else ""
-
-
-def symmetric_range(values: FloatArray, weights: FloatArray) -> tuple[float, float]:
-    """Return round limits about 0 that leave out the far ends at the singularities.
-
-    H has a logarithm's pole at each singularity, as deep as the mesh there is fine. So the limit
-    is what 98 % of the area stay below, rounded up to one or two digits.
-
-    Parameters
-    ----------
-    values : (n,) float
-    weights : (n,) float
-        Area about each value.
-    """
-    size = np.abs(values)
-    order = np.argsort(size)
-    share = np.cumsum(weights[order])
-    top = max(float(size[order][np.searchsorted(share, 0.98 * share[-1])]), _LEAST_LIMIT)
-    unit = 10.0 ** np.floor(np.log10(top))
-    steps = np.array([1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0]) * unit
-    limit = float(steps[np.searchsorted(steps, top * (1.0 - 1e-9))])
-    return (-limit, limit)
 
 
 def _shade(mesh: pv.PolyData) -> IntArray:

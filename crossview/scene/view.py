@@ -26,11 +26,11 @@ class LayerSettings:
     visible : bool
         Whether the layer is drawn.
     opacity : float
-        0 (nothing) to 1. For H and theta: how much of their colour covers the grey surface.
+        0 (nothing) to 1. For scalars: how much of their colour covers the grey surface.
     color_map : str
         A name of `colors.color_map_names()`; empty for the layer's own.
     value_range : (float, float), optional
-        Colour limits; None: symmetric about 0 and fitted to the data.
+        Colour limits, of the error density powers of 10; None: fitted to the data.
     size : float
         Factor on the automatic size of the glyphs, or on the width of the lines.
     density : float
@@ -65,6 +65,10 @@ LAYERS: tuple[LayerKind, ...] = (
     LayerKind("surface", "Surface", ("opacity", "edges")),
     LayerKind("H", "H", ("opacity", "color_map", "value_range")),
     LayerKind("theta", "Theta", ("opacity", "color_map"), visible=False),
+    LayerKind("H1", "H1", ("opacity", "color_map", "value_range"), visible=False),
+    LayerKind("H2", "H2", ("opacity", "color_map", "value_range"), visible=False),
+    LayerKind("aspect", "Aspect", ("opacity", "color_map", "value_range"), visible=False),
+    LayerKind("error", "Error density", ("opacity", "color_map", "value_range"), visible=False),
     LayerKind("crosses", "Crosses", ("opacity", "size", "density", "uniform")),
     LayerKind("singularities", "Singularities", ("size",)),
     LayerKind("cut", "Cut graph", ("opacity", "size"), visible=False),
@@ -126,7 +130,11 @@ class SceneView:
     faces : (m, 3) int, optional
         Its triangles.
     H : (n,) float, optional
-        Log of the size at the vertices.
+        Log of the size at the vertices, of two sizes the mean.
+    half_log_aspect : (m, 3) float, optional
+        (H2 - H1) / 2 at the corners of each face; None for one size.
+    error_density : (m,) float, optional
+        Square of the integrability error, by area.
     u, v : (m, 3) float, optional
         Unit directions of the cross at the faces' barycentres.
     singularities : tuple of Marker
@@ -150,6 +158,8 @@ class SceneView:
     points: FloatArray | None = None
     faces: IntArray | None = None
     H: FloatArray | None = None
+    half_log_aspect: FloatArray | None = None
+    error_density: FloatArray | None = None
     u: FloatArray | None = None
     v: FloatArray | None = None
     singularities: tuple[Marker, ...] = ()

@@ -48,6 +48,11 @@ def test_arms_follow_the_field_and_the_size():
     inside = glyphs.sites.free > glyphs.sites.spacing
     log_size = np.log(length[inside]) - glyphs.sites.positions[inside, 0]
     assert np.ptp(log_size) < 1e-9
+    half = np.full((len(plate.faces), 3), 0.2)
+    two = glyphs.ends(u, v, 0.0 * h, 0.5, False, half).reshape(-1, 4, 3)
+    along, across = two[:, 1] - two[:, 0], two[:, 3] - two[:, 2]
+    ratio = np.linalg.norm(across, axis=1) / np.linalg.norm(along, axis=1)
+    assert np.allclose(ratio[inside], np.exp(0.4))
     uniform = glyphs.ends(u, v, h, 2.0, True).reshape(-1, 4, 3)[inside]
     assert np.ptp(np.linalg.norm(uniform[:, 1] - uniform[:, 0], axis=1)) < 1e-12
 

@@ -7,7 +7,17 @@ import pytest
 from cmcrameri import cm
 
 from crossview.scene import Elements, Marker, SceneView, layers_named
-from crossview.scene.colors import CROSS, CUT, LOOP, PROBLEM, SURFACE, THEMES, valence_color
+from crossview.scene.colors import (
+    CROSS,
+    CUT,
+    LOOP,
+    PROBLEM,
+    SURFACE,
+    THEMES,
+    color_table,
+    valence_color,
+)
+from crossview.scene.scalars import bar_texts
 from solvers.errors import CrossviewError
 from solvers.primitives import annulus, sphere, square
 
@@ -62,6 +72,50 @@ class TestWhatIsSeen:
         for x in (-0.25, 0.0, 0.25):
             wanted = 255.0 * np.array(cm.vik(0.07 + 0.86 * (x + 0.5))[:3])
             assert np.abs(stage.color_at((x, 0.02, 0.0)) - wanted).max() <= 6
+
+    def test_one_size_shows_as_two_equal_ones(self, stage):
+        h = PLATE.vertices[:, 0]
+        half = np.zeros((PLATE.n_faces, 3))
+        values = {"H": h, "half_log_aspect": half}
+        colors = []
+        for name in ("H", "H1", "H2"):
+            view = plate_view([name], **values).with_layer(name, value_range=(-0.5, 0.5))
+            stage.scene.show(view)
+            stage.scene.fit()
+            colors.append(stage.color_at((0.25, 0.02, 0.0)))
+        # of a vertex each, or of the triangle around
+        assert np.abs(np.array(colors) - colors[0]).max() <= 15
+        assert np.abs(colors[1] - colors[2]).max() == 0
+
+    def test_two_sizes_differ_by_the_aspect_and_share_one_range(self, stage):
+        half = np.full((PLATE.n_faces, 3), 0.3)
+        values = {"H": np.full(PLATE.n_vertices, 0.1), "half_log_aspect": half}
+        limits = {}
+        for name, value in (("H1", -0.2), ("H2", 0.4), ("aspect", 0.6)):
+            stage.scene.show(plate_view([name], **values))
+            stage.scene.fit()
+            limits[name] = low, high = stage.scene.limits
+            table = color_table("lajolla" if name == "aspect" else "vik")
+            wanted = table[round(255 * (value - low) / (high - low)), :3].astype(int)
+            assert np.abs(stage.color_at((0.25, 0.02, 0.0)) - wanted).max() <= 6
+        assert limits["H1"] == limits["H2"] == pytest.approx((-0.4, 0.4))
+        assert limits["aspect"] == pytest.approx((0.0, 0.6))
+
+    def test_the_error_is_shown_by_powers_of_ten(self, stage):
+        left = PLATE.barycentres[:, 0] < 0
+        view = plate_view(["error"], error_density=np.where(left, 1e-2, 10.0))
+        stage.scene.show(view)
+        stage.scene.fit()
+        assert stage.scene.limits == (-3, 1)
+        table = color_table("lajolla")[:, :3].astype(int)
+        for x, row in ((-0.25, 64), (0.25, 255)):
+            assert np.abs(stage.color_at((x, 0.02, 0.0)) - table[row]).max() <= 6
+        assert bar_texts("error", (-3, 1)) == ["10⁻³", "10⁻²", "10⁻¹", "10⁰", "10¹"]
+        # where it is only rounding nothing stands out; a given range serves two pictures
+        stage.scene.show(plate_view(["error"], error_density=np.full(PLATE.n_faces, 1e-29)))
+        assert np.abs(stage.color_at((0.25, 0.02, 0.0)) - table[0]).max() <= 6
+        stage.scene.show(view.with_layer("error", value_range=(-6.0, 2.0)))
+        assert stage.scene.limits == (-6, 2)
 
     def test_h_range_is_round_symmetric_and_not_led_by_poles(self, stage):
         h = np.where(np.arange(PLATE.n_vertices) == 100, -50.0, 1.5 * PLATE.vertices[:, 0])
@@ -234,5 +288,5 @@ class TestWhatCannotBeDrawn:
         assert near(stage.color_at(PLATE.barycentres[3]), PROBLEM)
 
     def test_an_unknown_layer_names_the_known(self):
-        with pytest.raises(CrossviewError, match=r'no layer "quads".*surface, H, theta, crosses'):
+        with pytest.raises(CrossviewError, match=r'no layer "quads".*surface, H, theta, .*crosses'):
             layers_named(["H", "quads"])
