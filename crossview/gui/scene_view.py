@@ -9,7 +9,7 @@ import numpy as np
 
 from crossview.gui.figure_settings import FigureSettings
 from crossview.gui.state import WindowState
-from crossview.scene import Elements, LayerSettings, Marker, SceneView
+from crossview.scene import Elements, LayerSettings, Marker, SceneView, field_view
 from crossview.scene.view import Background
 from solvers.surface import TriSurface
 from solvers.triangulation import FloatArray, IntArray
@@ -46,15 +46,14 @@ def scene_view(state: WindowState, held_range: Range | None = None) -> SceneView
         Marker(_triple(position), s.valence, selected=i == state.selected, locked=s.locked)
         for i, (s, position) in enumerate(zip(state.singularities, positions, strict=True))
     )
-    return SceneView(
-        surface.vertices,
-        surface.faces,
-        H=None if field is None else field.H,
-        u=None if field is None else field.u,
-        v=None if field is None else field.v,
+    if field is None:
+        view = SceneView(surface.vertices, surface.faces)
+    else:
+        view = field_view(field, state.cut_graph)
+    return replace(
+        view,
         singularities=markers,
         preview=_preview(state, surface),
-        cut_graph=None if field is None else state.cut_graph,
         loop=_loop(state),
         problem=Elements(faces=poor_faces(surface)) if state.poor else None,
         title=document.source.title or document.name,

@@ -5,6 +5,8 @@
 2. For the same reason VTK's own render on each camera move is off while it handles events.
 3. Widget pixels are not device pixels: `_place` is the one conversion.
 4. Its keys (q closes), its drops and its timer are switched off.
+5. It tells VTK of a fine screen's dots per inch, by which VTK enlarges texts. The scene has done
+   so already (pixel_ratio): `BASE_DPI` is put back before each frame.
 """
 
 from __future__ import annotations
@@ -33,6 +35,7 @@ REST_MS = 300
 """How long nothing may move before a smooth picture is drawn on a software renderer."""
 TITLE_PIXELS, BESIDE_TITLE = 17, 130
 """Height of the title's letters; pixels beside it that the axes need."""
+BASE_DPI = 72
 REACH = 7.0
 """Pixels around a singularity that count as on it."""
 
@@ -203,6 +206,7 @@ class Viewport(QWidget):
         return place.x() * ratio, (self.plotter.height() - 1.0 - place.y()) * ratio
 
     def _frame_started(self, *_: object) -> None:
+        self.plotter.render_window.SetDPI(BASE_DPI)
         self._started = time.perf_counter()
 
     def _frame_ended(self, *_: object) -> None:

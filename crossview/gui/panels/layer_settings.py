@@ -20,6 +20,7 @@ from PySide6.QtWidgets import (
 from crossview.gui.workspace import Workspace
 from crossview.scene import LayerKind, LayerSettings
 from crossview.scene.colors import CYCLIC, DIVERGING, color_table
+from crossview.scene.scalars import SCALARS
 
 STEPS = 100
 FACTOR = 4.0  # sliders of factors go from 1/FACTOR to FACTOR, 1 in the middle
@@ -92,7 +93,7 @@ class LayerEditor(QWidget):
         combo = QComboBox()
         combo.setObjectName("color_map")
         combo.setIconSize(QSize(56, 12))
-        for name in CYCLIC if self._name == "theta" else DIVERGING:
+        for name in _color_maps(SCALARS[self._name].color_map):
             combo.addItem(_gradient(name), name)
         combo.activated.connect(lambda at: self._set(color_map=combo.itemText(at)))
         self._form.addRow("Colours", combo)
@@ -132,6 +133,14 @@ class LayerEditor(QWidget):
         self._form.addRow(auto)
         self._form.addRow("Range", pair)
         self._refresh.append(refresh)
+
+
+def _color_maps(own: str) -> tuple[str, ...]:
+    """Return the colour maps that mean the same kind of thing as a scalar's own, that one first."""
+    for family in (DIVERGING, CYCLIC):
+        if own in family:
+            return (own, *(name for name in family if name != own))
+    return (own,)
 
 
 def _linear(step: int) -> float:

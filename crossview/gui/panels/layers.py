@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QSize, Qt
+from PySide6.QtCore import QSize
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QFrame,
@@ -19,6 +19,8 @@ from crossview.gui.state import WindowState
 from crossview.gui.workspace import Workspace
 from crossview.scene import LAYERS
 
+ROW, LEAST_ROWS = 24, 5
+
 
 class LayersPanel(QWidget):
     """List of layers; a click on the eye shows or hides, a click on the name selects."""
@@ -31,23 +33,23 @@ class LayersPanel(QWidget):
         self.list.setIconSize(QSize(18, 18))
         self.list.setUniformItemSizes(True)
         self.list.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
-        self.list.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.settings = QStackedWidget()
         self.editors: dict[str, LayerEditor] = {}
         for kind in LAYERS:
             item = QListWidgetItem(kind.label)
-            item.setSizeHint(QSize(0, 26))
+            item.setSizeHint(QSize(0, ROW))
             self.list.addItem(item)
             self.editors[kind.name] = LayerEditor(kind, workspace)
             self.settings.addWidget(self.editors[kind.name])
-        self.list.setFixedHeight(26 * len(LAYERS) + 4)
+        self.list.setMinimumHeight(LEAST_ROWS * ROW)
+        self.list.setMaximumHeight(ROW * len(LAYERS) + 4)
         self.list.currentRowChanged.connect(self.settings.setCurrentIndex)
         self.list.itemPressed.connect(self._pressed)
         self.list.setCurrentRow(1)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 4, 0, 4)
         layout.setSpacing(4)
-        layout.addWidget(self.list)
+        layout.addWidget(self.list, 3)
         layout.addWidget(self.settings, 1)
         self.show_state(None, workspace.state)
 
