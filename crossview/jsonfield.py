@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import difflib
 import json
-import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from solvers.errors import CrossviewError
+from solvers.validation import LARGEST
 
 
 class CaseError(CrossviewError):
@@ -34,7 +34,7 @@ def read_json(path: Path) -> JsonField:
         object names a key twice.
     """
     try:
-        text = path.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8-sig")  # some editors begin with a byte order mark
     except UnicodeDecodeError as error:
         raise CaseError("the case is not a text file in UTF-8", str(path)) from error
     except OSError as error:
@@ -54,6 +54,8 @@ def read_json(path: Path) -> JsonField:
         raise CaseError(f"malformed JSON, {error.msg}", where) from error
     except RecursionError as error:
         raise CaseError("malformed JSON, nested too deeply", str(path)) from error
+    except ValueError as error:
+        raise CaseError("malformed JSON, a number is too long", str(path)) from error
 
 
 @dataclass(frozen=True)
@@ -99,17 +101,14 @@ class JsonField:
         return [JsonField(v, self.file, f"{self.keys}[{i}]") for i, v in enumerate(self.value)]
 
     def number(self) -> float:
-        """A finite number."""
+        """A finite number that can be computed with."""
         if isinstance(self.value, bool) or not isinstance(self.value, int | float):
             raise self.error(f"expected a number, found {_shown(self.value)}")
-        # an integer too long for a double overflows rather than becoming infinite
-        try:
-            number = float(self.value)
-        except OverflowError:
-            number = math.inf
-        if not math.isfinite(number):
-            raise self.error(f"expected a finite number, found {_shown(self.value)}")
-        return number
+        if not abs(self.value) < LARGEST:
+            raise self.error(
+                f"expected a finite number below {LARGEST:g}, found {_shown(self.value)}"
+            )
+        return float(self.value)
 
     def integer(self, name: str, least: int | None = None, most: int | None = None) -> int:
         """A whole number called `name`, between `least` and `most`."""

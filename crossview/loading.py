@@ -24,6 +24,12 @@ def load_surfaces(case: Case) -> tuple[Repaired, ...]:
     """
     if isinstance(case.surface, Builtin):
         name, parameters = case.surface.name, case.surface.parameters
+        if case.options.component not in (None, "all", "largest", 0):
+            raise SurfaceError(
+                f"there is no component {case.options.component}",
+                f"built-in {name}",
+                "a built-in surface has only one",
+            )
         try:
             return (Repaired(BUILTIN[name](**parameters)),)
         except SurfaceError as error:

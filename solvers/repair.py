@@ -92,7 +92,7 @@ def repair_each(
     of_face = face_components(len(points), triangles)
     return tuple(
         Repaired(_surface(points, triangles[of_face == number]), tuple(notes))
-        for number in range(int(of_face.max()) + 1)
+        for number in range(int(of_face.max(initial=0)) + 1)
     )
 
 
@@ -159,7 +159,7 @@ def _cut_apart(points: FloatArray, triangles: IntArray) -> tuple[FloatArray, Int
 
 def _choose(n_points: int, triangles: IntArray, component: int | str) -> tuple[IntArray, str]:
     of_face = face_components(n_points, triangles)
-    count = int(of_face.max()) + 1
+    count = int(of_face.max(initial=0)) + 1
     number = 0 if component == "largest" else component
     if not isinstance(number, int) or not 0 <= number < count:
         raise SurfaceError(

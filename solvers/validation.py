@@ -12,6 +12,9 @@ from scipy.sparse.csgraph import connected_components
 from solvers.errors import SurfaceError
 from solvers.triangulation import FloatArray, IntArray, next_halfedge
 
+LARGEST = 1e100
+"""Bound of all coordinates and lengths: the products of three or more must not overflow."""
+
 DEGENERATE = 1e-7
 """Twice the area over the squared longest edge below which a triangle counts as degenerate.
 
@@ -126,10 +129,10 @@ def array_problems(vertices: FloatArray, faces: IntArray) -> Iterator[SurfaceErr
             "give at least one triangle",
         )
         return
-    bad = np.flatnonzero(~np.isfinite(vertices).all(axis=1))
+    bad = np.flatnonzero(~(np.abs(vertices) < LARGEST).all(axis=1))
     if len(bad):
         yield SurfaceError(
-            "coordinates are not finite",
+            f"coordinates are not finite numbers below {LARGEST:g}",
             f"vertices {listed(bad)}",
             "mend the file they come from",
             bad,

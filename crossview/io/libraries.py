@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import io
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -49,7 +51,10 @@ def read_gltf(path: Path) -> Polygons:
 
 def read_msh(path: Path) -> Polygons:
     """Read the surface elements of a Gmsh file, format 2.2 or 4.1, text or binary."""
-    mesh = meshio.gmsh.read(path)
+    with contextlib.redirect_stderr(io.StringIO()) as complaints:
+        mesh = meshio.gmsh.read(path)
+    if "not closed" in complaints.getvalue():
+        raise CrossviewError("the MSH file is cut short", str(path), "write it anew")
     blocks = [c.data[:, : CORNERS[c.type]] for c in mesh.cells if c.type in CORNERS]
     curved = sum(len(c.data) for c in mesh.cells if c.type in CORNERS and c.type[-1].isdigit())
     volumes = sum(len(c.data) for c in mesh.cells if c.dim == 3)

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import math
-
 from solvers.errors import SurfaceError
+from solvers.validation import LARGEST
 
 MOST_VERTICES = 4_000_000
 
@@ -17,7 +16,7 @@ def whole(name: str, value: float, least: int, step: int = 1) -> int:
     SurfaceError
         Unless it is `least` or `least` plus a multiple of `step`.
     """
-    good = _is_finite(value) and value == int(value)
+    good = _is_usable(value) and value == int(value)
     if not good or value < least or (int(value) - least) % step:
         kind = "a whole number" if step == 1 else f"a multiple of {step}"
         raise SurfaceError(f"{name} must be {kind}, at least {least}, not {value!r}")
@@ -25,18 +24,15 @@ def whole(name: str, value: float, least: int, step: int = 1) -> int:
 
 
 def positive(name: str, value: float) -> float:
-    """Return `value` as a float; raises SurfaceError unless it is positive and finite."""
-    if not _is_finite(value) or value <= 0:
+    """Return `value` as a float; raises SurfaceError unless it is positive, below `LARGEST`."""
+    if not _is_usable(value) or value <= 0:
         raise SurfaceError(f"{name} must be a positive number, not {value!r}")
     return float(value)
 
 
-def _is_finite(value: object) -> bool:
-    """Whether `value` is a number that a float can hold; parameters come from files."""
-    try:
-        return isinstance(value, (int, float)) and math.isfinite(value)
-    except OverflowError:
-        return False
+def _is_usable(value: object) -> bool:
+    """Whether `value` is a number that can be computed with; parameters come from files."""
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < LARGEST
 
 
 def affordable(n_vertices: float) -> None:

@@ -93,6 +93,7 @@ def test_a_file_called_like_a_builtin_is_the_file(tmp_path):
         ({"singularities": [{"position": [0, 0], "valence": 3}]}, r"list of 3 .*\[0\]\.position"),
         ({"singularities": [{"position": [0, 0, float("nan")], "valence": 3}]}, r"NaN.*ion\[2\]"),
         ({"singularities": [{"position": [0, 0, 10**400], "valence": 3}]}, r"finite.*ion\[2\]"),
+        ({"singularities": [{"position": [0, 0, 1e300], "valence": 3}]}, r"below 1e.*ion\[2\]"),
         ({"singularities": [{"position": [0, 0, "1"], "valence": 3}]}, r"number.*position\[2\]"),
         ({"singularities": [{"position": [0, 0, 0], "valence": 0}]}, r"at least 1, found 0"),
         ({"singularities": [{"position": [0, 0, 0], "valence": 3.5}]}, r"whole number.*3\.5"),
@@ -127,6 +128,7 @@ def test_what_is_wrong_is_named_with_its_place(change, said):
         ('{"surface": "torus",\n "options": {]}', "malformed JSON.*line 2, column 14"),
         ("", "malformed JSON.*line 1, column 1"),
         ("[" * 100000, "nested too deeply"),
+        ('{"surface": %s}' % ("9" * 5000), "a number is too long"),
         ('{"surface": "torus", "surface": "disk"}', '"surface" stands twice'),
         ("[1]", "expected an object"),
     ],
@@ -137,6 +139,11 @@ def test_a_broken_file_is_refused(tmp_path, text, said):
     with pytest.raises(CaseError, match=said) as caught:
         Case.load(path)
     assert "case.json" in str(caught.value)
+
+
+def test_a_byte_order_mark_is_no_mistake(tmp_path):
+    (tmp_path / "case.json").write_text('{"surface": "torus"}', encoding="utf-8-sig")
+    assert Case.load(tmp_path / "case.json").surface == Builtin("torus")
 
 
 def test_a_missing_or_binary_file_is_refused(tmp_path):

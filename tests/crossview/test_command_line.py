@@ -88,6 +88,9 @@ def refused(ran, tmp_path, *said):
             ["singularity #2", "39.6 %", "at 3, 0, 0", "within 5 %"],
         ),
         ({"surface": "sphere"}, ["miss the index budget, 0 of 8", "add 8 valence 3"]),
+        ({"surface": "torus", "options": {"component": 7}}, ["no component 7", "built-in torus"]),
+        ({"surface": {"builtin": "sphere", "radius": 1e200}}, ["radius must be a positive number"]),
+        ({"surface": {"builtin": "sphere", "subdivisions": True}}, ["must be a whole number"]),
         (
             {"surface": "square", "singularities": [{"position": [0.5, 0, 0], "valence": 4}]},
             ["singularity 1 lies on the boundary", "move it inside"],

@@ -167,6 +167,17 @@ def test_reading_damaged_files_is_silent(ball, tmp_path, capfd):
         assert capfd.readouterr() == ("", "")
 
 
+@pytest.mark.parametrize("name", [name for name in FORMATS if name.startswith("msh")])
+def test_msh_cut_short_by_a_byte_is_refused(name, ball, tmp_path, capfd):
+    path = tmp_path / "ball.msh"
+    FORMATS[name][1](path, ball)
+    path.write_bytes(path.read_bytes().rstrip()[:-1])
+    capfd.readouterr()
+    with pytest.raises(CrossviewError, match="cut short"):
+        read_surface(path)
+    assert capfd.readouterr() == ("", "")
+
+
 @pytest.mark.parametrize("suffix", SUFFIXES)
 def test_missing_and_empty_files(suffix, tmp_path):
     path = tmp_path / f"x{suffix}"

@@ -223,6 +223,7 @@ def test_spheres_that_touch_in_a_vertex_are_cut_apart(ball):
         ([], [], "empty|columns"),
         (np.zeros((3, 3)), np.empty((0, 3), int), "empty"),
         ([[0, 0, 0], [1, 0, 0], [0, np.inf, 0]], [[0, 1, 2]], "not finite"),
+        ([[0, 0, 0], [1, 0, 0], [0, 1e200, 0]], [[0, 1, 2]], "not finite numbers below 1e"),
         ([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 3]], "outside 0..2"),
         ([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, -1]], "outside 0..2"),
         ([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 1, 2]], "degenerate"),
@@ -237,6 +238,16 @@ def test_what_cannot_be_repaired_is_said_in_one_line(vertices, faces, words):
 def test_a_surface_of_nothing_but_flat_triangles_is_empty_after_repair():
     with pytest.raises(SurfaceError, match="empty"):
         repair([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 1, 2]], aggressive=True)
+
+
+def test_a_soup_that_shrinks_to_nothing_is_empty():
+    """One stray corner so far away that all others count as the same place."""
+    vertices, faces = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1e30, 0, 0]], [[0, 1, 2], [1, 2, 3]]
+    for make in (repair, repair_each):
+        with pytest.raises(SurfaceError, match="empty"):
+            make(vertices, faces, merge=True)
+    with pytest.raises(SurfaceError, match="empty"):
+        repair(vertices, faces, merge=True, component="largest")
 
 
 def test_each_component_becomes_a_surface_the_largest_first(ball):
