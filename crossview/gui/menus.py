@@ -11,7 +11,8 @@ from PySide6.QtCore import QLocale, QSize, Qt
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QMenu, QSizePolicy, QSpinBox, QToolBar, QToolButton, QWidget
 
-from crossview.gallery import names
+from crossview.case import Case
+from crossview.gallery import names, path_of
 from crossview.gui.action_table import ACTIONS, LABELLED, TOOL_VALENCES, TOOLBAR
 from crossview.gui.recent import forget_all, recent
 from crossview.session.commands import MAX_VALENCE, MIN_VALENCE
@@ -39,8 +40,11 @@ class Menus:
         file_menu = self._menus["File"]
         file_menu.insertMenu(window.actions_table.by_name["save"], self._recent)
         self.show_recent()
+        gallery = self._menus["Gallery"]
+        gallery.setToolTipsVisible(True)
         for name in names():
-            self._add(self._menus["Gallery"], name, partial(window.files.open, name))
+            action = self._add(gallery, name, partial(window.files.open, name))
+            action.setToolTip(Case.load(path_of(name)).title)
         self._fill_view()
 
     def menu(self, title: str) -> QMenu:

@@ -147,6 +147,28 @@ def test_the_table_edits_valence_lock_and_selection(hand: Hand) -> None:
     assert hand.state.undo_name == "lock singularity 3"
 
 
+def test_a_double_click_edits_the_valence(hand: Hand) -> None:
+    hand.open("disk-4")
+    QTest.mouseDClick(
+        hand.canvas, Qt.MouseButton.LeftButton, pos=hand.place_of(2).toPoint(), delay=0
+    )
+    editor = hand.window.singularities_panel.table.findChild(QSpinBox)
+    editor.setValue(6)
+    QTest.keyClick(editor, Qt.Key.Key_Return)
+    hand.wait()
+    assert [s.valence for s in hand.state.singularities] == [3, 3, 6, 3]
+
+
+def test_the_palette_knows_what_gallery_cases_show(hand: Hand) -> None:
+    hand.window.show_palette()
+    palette = next(w for w in QApplication.topLevelWidgets() if isinstance(w, Palette))
+    QTest.keyClicks(palette.search, "gallery corners of a cube")
+    assert palette.list.topLevelItemCount() == 1
+    QTest.keyClick(palette.search, Qt.Key.Key_Return)
+    hand.wait(lambda: hand.state.solved)
+    assert hand.state.document.name == "sphere-cube"
+
+
 def test_a_regular_valence_is_not_taken(hand: Hand) -> None:
     hand.open("disk-4")
     before = hand.state.document

@@ -1,8 +1,10 @@
 """What can go wrong, and how the window helps out."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+import pytest
 from PySide6.QtCore import QPointF, Qt
 
 from crossview.scene.colors import PROBLEM, valence_color
@@ -176,6 +178,38 @@ def test_validity_follows_a_drag_at_once(hand: Hand) -> None:
     hand.wait(lambda: hand.state.solved)
     final = np.degrees(hand.state.solution.holonomy_defects[0])
     assert row.value.text() == f"{final:.1f}°".replace("-", "−")
+
+
+def test_dropped_on_the_boundary_is_told_and_undone(hand: Hand) -> None:
+    hand.open("disk-4")
+    trials, surface = hand.window.workspace.trials, hand.state.shown_surface
+    rim = surface.point_at_vertex(int(surface.boundary_loops[0][0]))
+    trials.start_drag(0)
+    trials.drag_to(rim)
+    trials.drop()
+    hand.wait(lambda: hand.state.message is not None)
+    assert "singularity 1 lies on the boundary" in hand.state.message.text
+    assert hand.state.field is None
+    hand.trigger("undo")
+    hand.wait(lambda: hand.state.solved)
+    assert hand.state.message is None
+    assert hand.state.field is not None
+
+
+@pytest.mark.parametrize("name", ["spot_low_resolution.obj", "plate_holes.stl", "pointy.obj"])
+def test_real_surfaces_from_file_to_field(
+    hand: Hand, real_surface: Callable[[str], Path], name: str
+) -> None:
+    hand.open(str(real_surface(name)))
+    assert hand.state.field is None
+    panel = hand.window.validity_panel
+    labels = [button.text() for button in panel.buttons]
+    all_of_them = [label for label in labels if label.startswith("Add all")]
+    panel.buttons[labels.index(*(all_of_them or labels[:1]))].click()
+    hand.wait(lambda: hand.state.solved)
+    assert hand.state.field.max_closing_error < 1e-9
+    color = BLUE if hand.state.singularities[0].valence == 3 else RED
+    assert hand.shows(color)
 
 
 def test_undo_goes_back_to_the_surface_before(hand: Hand) -> None:
