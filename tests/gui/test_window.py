@@ -162,11 +162,11 @@ def test_a_double_click_edits_the_valence(hand: Hand) -> None:
 def test_the_palette_knows_what_gallery_cases_show(hand: Hand) -> None:
     hand.window.show_palette()
     palette = next(w for w in QApplication.topLevelWidgets() if isinstance(w, Palette))
-    QTest.keyClicks(palette.search, "gallery corners of a cube")
+    QTest.keyClicks(palette.search, "gallery ten valence")
     assert palette.list.topLevelItemCount() == 1
     QTest.keyClick(palette.search, Qt.Key.Key_Return)
     hand.wait(lambda: hand.state.solved)
-    assert hand.state.document.name == "sphere-cube"
+    assert hand.state.document.name == "closed-H"
 
 
 def test_a_regular_valence_is_not_taken(hand: Hand) -> None:
