@@ -108,10 +108,16 @@ class _Mesh:
         self.positions = surface.positions(points)
 
     def neighbourhood(self) -> IntArray:
-        """Return the triangles within a few rings of any of the points."""
-        near = np.unique(self.at)
+        """Return the triangles within a few rings of any of the points.
+
+        Rings begin at the vertex, the edge or the triangle that a point lies on, whichever
+        triangle it is given in.
+        """
         touched = np.zeros(len(self.vertices), dtype=bool)
-        for _ in range(RINGS):
+        for face, weights in zip(self.at, self.weights, strict=True):
+            touched[self.faces[face, _snapped(weights, self.vertices[self.faces[face]]) > 0]] = True
+        near = np.flatnonzero(touched[self.faces].any(axis=1))
+        for _ in range(RINGS - 1):
             touched[self.faces[near]] = True
             near = np.flatnonzero(touched[self.faces].any(axis=1))
         return near

@@ -59,6 +59,27 @@ def test_triangles_halve_with_each_level_and_stay_well_shaped() -> None:
     assert np.array(sizes[:-1]) / np.array(sizes[1:]) == pytest.approx([2, 2, 2], rel=0.4)
 
 
+def test_it_does_not_matter_in_which_triangle_a_point_on_a_vertex_or_edge_is_given() -> None:
+    surface = BUILTIN["torus"](n=24)
+    corner = int(surface.faces[30, 0])
+    stars = [
+        SurfacePoint(int(face), tuple(np.eye(3)[list(surface.faces[face]).index(corner)]))
+        for face in np.flatnonzero((surface.faces == corner).any(axis=1))
+    ]
+    h = 3 * 30 + 1
+    twin = int(surface.triangulation.twin[h])
+    sides = [
+        SurfacePoint(side // 3, tuple(np.roll([weight, 1 - weight, 0.0], side % 3)))
+        for side, weight in ((h, 0.3), (twin, 0.7))
+    ]
+    for points in (stars, sides):
+        refined = [refine_at(surface, [point], 3).surface for point in points]
+        for other in refined[1:]:
+            assert other.n_faces == refined[0].n_faces
+            places = [np.sort(s.vertices.round(9) @ [1, np.pi, 7]) for s in (refined[0], other)]
+            assert places[0] == pytest.approx(places[1], abs=1e-7)
+
+
 def test_only_the_neighbourhood_changes() -> None:
     surface = BUILTIN["torus"](n=36)
     refinement = refine_at(surface, [SurfacePoint(0, (0.3, 0.3, 0.4))], 3)
