@@ -7,7 +7,7 @@ from functools import cache
 from importlib.resources import files
 
 from PySide6.QtCore import QByteArray, QRectF, Qt
-from PySide6.QtGui import QColor, QIcon, QPainter, QPalette, QPixmap
+from PySide6.QtGui import QColor, QIcon, QPainter, QPalette, QPen, QPixmap
 from PySide6.QtSvg import QSvgRenderer
 from PySide6.QtWidgets import QApplication
 
@@ -80,6 +80,6 @@ def _painted(paint: Callable[[QPainter, QRectF], None]) -> QIcon:
 
 def _paint_disk(painter: QPainter, area: QRectF, color: QColor, inset: float) -> None:
     margin = inset * area.width()
-    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setPen(QPen(QColor("white"), area.width() / 16))  # keeps it off a selected row
     painter.setBrush(color)
     painter.drawEllipse(area.adjusted(margin, margin, -margin, -margin))
