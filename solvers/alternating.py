@@ -13,7 +13,7 @@ import numpy as np
 from solvers.aligned import AlignedField
 from solvers.anisotropic import Iterate, NewtonStep, roughness
 from solvers.factorization import Analysis, Factorization
-from solvers.integrability import Integrability
+from solvers.integrability import Integrability, Residual
 from solvers.progress import Progress
 from solvers.triangulation import FloatArray
 
@@ -80,25 +80,26 @@ class _ScaleStep:
         self.integrability = integrability
         t = integrability.triangulation
         # Half the proximal term; the mass only fixes the constant, which E does not see.
-        mass = np.zeros((t.n_faces, 9, 9))
+        elements = 2 * weight * roughness(integrability)
         diagonal = np.arange(9)
-        mass[:, diagonal, diagonal] = (t.areas / t.areas.sum())[:, None]
-        self._proximal = 2 * weight * roughness(integrability) + 1e-9 * mass
+        elements[:, diagonal, diagonal] += 1e-9 * (t.areas / t.areas.sum())[:, None]
+        self._proximal = integrability.assembly.packed(elements)
         self._analysis: Analysis | None = None
         self._factor: Factorization
 
     def prepare(self, x: FloatArray) -> None:
         i = self.integrability
-        self._jacobian = i.residual(x).jacobian.copy()
-        self._jacobian[:, :, 6:] = 0.0
-        normal = np.einsum("mri,mrj->mij", self._jacobian, self._jacobian)
-        matrix = i.assembly.matrix(normal + self._proximal)
-        self._analysis = self._analysis or Analysis(matrix)
+        by_all = i.residual(x).jacobian
+        by_scales = by_all.copy(order="K")
+        by_scales[:, :, 6:] = 0.0
+        self._at = Residual(np.zeros((len(by_all), 2)), lambda: by_scales)
+        matrix = i.assembly.lower(i.assembly.normal(by_scales) + self._proximal)
+        self._analysis = self._analysis or Analysis(matrix, lower=True)
         self._factor = self._analysis.factor(matrix)
 
     def __call__(self, x: FloatArray) -> FloatArray:
         i = self.integrability
-        force = np.einsum("mri,mr->mi", self._jacobian, i.residual(x).values)
+        force = self._at.pulled(i.residual(x).values)
         return np.asarray(x - self._factor.solve(i.assembly.vector(force)))
 
 
@@ -109,13 +110,13 @@ class _AngleStep:
         i = self.integrability = integrability
         t = i.triangulation
         opposite = np.array([2, 0, 1])
-        elements = np.zeros((t.n_faces, 9, 9))
+        elements = np.zeros((9, 9, t.n_faces)).transpose(2, 0, 1)
         elements[:, 6:, 6:] = 4 * i.hat_stiffness[:, opposite][:, :, opposite]
         diagonal = np.arange(9)
         elements[:, diagonal, diagonal] += 1e-9 * (t.areas / t.areas.sum())[:, None]
-        matrix = i.assembly.matrix(elements)
+        matrix = i.assembly.lower(i.assembly.packed(elements))
         # u and v are orthonormal, so the system is the Crouzeix-Raviart one whatever theta is.
-        self._factor = Analysis(matrix).factor(matrix)
+        self._factor = Analysis(matrix, lower=True).factor(matrix)
 
     def prepare(self, x: FloatArray) -> None:
         """Nothing changes with x."""
@@ -124,6 +125,7 @@ class _AngleStep:
         i = self.integrability
         r = i.residual(x)
         frozen = i.frozen_turning(x)
-        force = np.zeros((len(frozen), 9))
-        force[:, 6:] = np.einsum("mri,mr->mi", frozen, r.values)
+        force = np.zeros((9, len(frozen))).T
+        for rho in (0, 1):
+            force[:, 6:] += frozen[:, rho] * r.values[:, rho, None]
         return np.asarray(x - self._factor.solve(i.assembly.vector(force)))

@@ -11,17 +11,18 @@ from collections.abc import Generator
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csc_array
 
 from solvers.factorization import Analysis, Factorization
-from solvers.integrability import Integrability, Residual
+from solvers.integrability import Integrability, Residual, norm
 from solvers.progress import Progress
 from solvers.triangulation import FloatArray
 
 PENALTY = 1e-7
 """Augmented-Lagrangian penalty; with three passes a step solves J d = -rho to round-off."""
 
-PASSES = 3
+PASSES, ROUNDING = 3, 1e-13
+"""Most passes, and how small a part of rho is left when no further one helps."""
+
 TURN_LIMIT = 0.5
 """Most that a step may turn a cross, radians."""
 
@@ -75,14 +76,15 @@ class MinimumNormNewton:
     ----------
     integrability : Integrability
         The residual.
+    accelerated : bool, optional
+        As in `Analysis`.
     """
 
-    def __init__(self, integrability: Integrability) -> None:
+    def __init__(self, integrability: Integrability, *, accelerated: bool = True) -> None:
         self.integrability = integrability
-        self._metric = step_metric(integrability)
-        self._roughness = roughness(integrability)
-        zero = integrability.residual(np.zeros(integrability.assembly.n))
-        self._analysis = Analysis(self._system(self._metric, zero))
+        self._metric = integrability.assembly.packed(step_metric(integrability))
+        pattern = integrability.assembly.lower(self._metric)
+        self._analysis = Analysis(pattern, accelerated=accelerated, lower=True)
 
     def solve(self, x: FloatArray, limit: int = 30) -> Generator[Progress, None, Iterate]:
         """Newton steps until E is nothing but rounding.
@@ -97,8 +99,8 @@ class MinimumNormNewton:
         r = self.integrability.residual(x)
         history = [r.energy]
         while r.energy > CONVERGED and len(history) <= limit:
-            factor = self._analysis.factor(self._system(self._metric, r))
-            direction = self._constrained(factor, r, np.zeros_like(x))
+            factor = self._factor(self._metric, r)
+            direction = self._constrained(factor, r, r.values, None)
             x, after = self._advance(x, r, direction)
             if after.energy >= r.energy:
                 break
@@ -127,12 +129,14 @@ class MinimumNormNewton:
         Iterate
             A point with E = 0.
         """
-        metric = self._roughness + 1e-6 * self._metric
+        assembly = self.integrability.assembly
+        metric = assembly.packed(roughness(self.integrability)) + 1e-6 * self._metric
         rough = self._roughness_of(x, target)
         for count in range(limit):
             r = self.integrability.residual(x)
-            factor = self._analysis.factor(self._system(metric, r))
-            direction = self._constrained(factor, r, -self._roughness_gradient(x, target))
+            factor = self._factor(metric, r)
+            downhill = -self._roughness_gradient(x, target)
+            direction = self._constrained(factor, r, r.values, downhill)
             trial = self._smoother(factor, r, x, direction, target, rough)
             if trial is None:
                 break
@@ -143,19 +147,27 @@ class MinimumNormNewton:
                 break
         return (yield from self.solve(x))
 
-    def _system(self, metric: FloatArray, r: Residual) -> csc_array:
-        normal = np.einsum("mri,mrj->mij", r.jacobian, r.jacobian)
-        return self.integrability.assembly.matrix(metric + normal / PENALTY)
-
-    def _constrained(self, factor: Factorization, r: Residual, linear: FloatArray) -> FloatArray:
-        """Return the d with J d = -rho that minimises d . metric d / 2 - linear . d."""
+    def _factor(self, metric: FloatArray, r: Residual) -> Factorization:
         assembly = self.integrability.assembly
-        multiplier = np.zeros_like(r.values)
+        normal = assembly.normal(r.jacobian)
+        normal /= PENALTY
+        normal += metric
+        return self._analysis.factor(assembly.lower(normal))
+
+    def _constrained(
+        self, factor: Factorization, r: Residual, values: FloatArray, linear: FloatArray | None
+    ) -> FloatArray:
+        """Return the d with J d = -values that minimises d . metric d / 2 - linear . d."""
+        assembly = self.integrability.assembly
+        multiplier = np.zeros_like(values)
+        enough = ROUNDING * norm(values)
         for _ in range(PASSES):
-            force = np.einsum("mri,mr->mi", r.jacobian, r.values / PENALTY + multiplier)
-            d = factor.solve(linear - assembly.vector(force))
-            reached = np.einsum("mri,mi->mr", r.jacobian, assembly.gathered(d)) + r.values
-            multiplier += reached / PENALTY
+            force = -assembly.vector(r.pulled(values / PENALTY + multiplier))
+            d = factor.solve(force if linear is None else linear + force)
+            off = r.pushed(assembly.gathered(d)) + values
+            if norm(off) <= enough:
+                break
+            multiplier += off / PENALTY
         return d
 
     def _advance(
@@ -188,8 +200,7 @@ class MinimumNormNewton:
                 off = self.integrability.residual(trial)
                 if off.energy < 1e-7:
                     break
-                step = Residual(off.values, r.jacobian)
-                trial = trial + self._constrained(factor, step, np.zeros_like(x))
+                trial = trial + self._constrained(factor, r, off.values, None)
             close = self.integrability.residual(trial).energy < 1e-3
             if close and self._roughness_of(trial, target) < rough:
                 return trial
@@ -203,17 +214,20 @@ class MinimumNormNewton:
 
     def _roughness_of(self, x: FloatArray, target: FloatArray) -> float:
         a, s = self._differences(x, target)
-        laplacian = self.integrability.hat_stiffness
-        return float(
-            np.einsum("mi,mij,mj->", a, laplacian, a) + np.einsum("mi,mij,mj->", s, laplacian, s)
-        )
+        by_a, by_s = self._pull_of_roughness(a, s)
+        return float((a * by_a).sum() + (s * by_s).sum())
 
     def _roughness_gradient(self, x: FloatArray, target: FloatArray) -> FloatArray:
         i = self.integrability
         a, s = self._differences(x, target)
-        by_a = np.einsum("mij,mj->mi", i.hat_stiffness, a)
-        by_s = np.einsum("mij,mj->mi", i.hat_stiffness, s) * i.sheet
-        return i.assembly.vector(np.concatenate([by_a, by_s, np.zeros_like(a)], axis=1))
+        by_a, by_s = self._pull_of_roughness(a, s)
+        return i.assembly.vector(np.concatenate([by_a, by_s * i.sheet, np.zeros_like(a)], axis=1))
+
+    def _pull_of_roughness(self, a: FloatArray, s: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the element stiffness matrices times corner values (m, 3)."""
+        laplacian = self.integrability.hat_stiffness.transpose(1, 2, 0)
+        first, second = ((laplacian * values.T).sum(axis=1).T for values in (a, s))
+        return first, second
 
 
 def step_metric(integrability: Integrability) -> FloatArray:
@@ -226,7 +240,7 @@ def step_metric(integrability: Integrability) -> FloatArray:
     mass = np.eye(3) * (t.areas / (3 * t.areas.sum()))[:, None, None]
     signs = integrability.sheet[:, :, None] * integrability.sheet[:, None, :]
     opposite = np.array([2, 0, 1])
-    metric = np.zeros((t.n_faces, 9, 9))
+    metric = np.zeros((9, 9, t.n_faces)).transpose(2, 0, 1)
     metric[:, :3, :3] = mass + SMOOTH_SCALES * laplacian
     metric[:, 3:6, 3:6] = mass + SMOOTH_SCALES * signs * laplacian
     edge_stiffness = 4 * laplacian[:, opposite][:, :, opposite]
@@ -241,7 +255,7 @@ def roughness(integrability: Integrability) -> FloatArray:
     """
     laplacian = integrability.hat_stiffness
     signs = integrability.sheet[:, :, None] * integrability.sheet[:, None, :]
-    elements = np.zeros((len(laplacian), 9, 9))
+    elements = np.zeros((9, 9, len(laplacian))).transpose(2, 0, 1)
     elements[:, :3, :3] = laplacian
     elements[:, 3:6, 3:6] = signs * laplacian
     return elements

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from scipy.sparse import csc_array
+from scipy.sparse import csc_array, diags_array
 from scipy.sparse.linalg import splu
 
 from solvers.errors import SolveError
@@ -34,23 +34,29 @@ class Factorization:
     Parameters
     ----------
     matrix : (n, n) sparse array
-        Symmetric positive definite, both triangles stored.
+        Symmetric positive definite, both triangles stored or, if `lower`, only the lower.
     solve : callable
         What the factor does to a right-hand side.
+    lower : bool, optional
+        Which.
     """
 
-    def __init__(self, matrix: csc_array, solve: Solve) -> None:
+    def __init__(self, matrix: csc_array, solve: Solve, *, lower: bool = False) -> None:
         self.matrix = matrix
         self.solve = solve
+        self._lower = lower
 
     def residual(self, solution: FloatArray, right_hand_side: FloatArray) -> float:
         """Return the largest residual relative to the largest term in the sums."""
         scale = max(
             float(np.abs(right_hand_side).max(initial=0.0)),
-            float(abs(self.matrix).max() * np.abs(solution).max(initial=0.0)),
+            float(np.abs(self.matrix.data).max(initial=0.0) * np.abs(solution).max(initial=0.0)),
             np.finfo(float).tiny,
         )
-        return float(np.abs(self.matrix @ solution - right_hand_side).max(initial=0.0) / scale)
+        product = self.matrix @ solution
+        if self._lower:
+            product += self.matrix.T @ solution - self.matrix.diagonal() * solution
+        return float(np.abs(product - right_hand_side).max(initial=0.0) / scale)
 
 
 class Analysis:
@@ -59,16 +65,19 @@ class Analysis:
     Parameters
     ----------
     matrix : (n, n) sparse array
-        Symmetric, both triangles stored; only its pattern counts.
+        Symmetric; only its pattern counts.
     accelerated : bool, optional
         Whether to use rslab where it is installed.
+    lower : bool, optional
+        Whether this and the matrices to factor store only their lower triangles.
     """
 
-    def __init__(self, matrix: csc_array, *, accelerated: bool = True) -> None:
+    def __init__(self, matrix: csc_array, *, accelerated: bool = True, lower: bool = False) -> None:
+        self._lower = lower
         self._libraries: list[Callable[[csc_array], Solve]] = []
         if accelerated and rslab is not None:
-            self._libraries.append(_Rslab(matrix))
-        self._libraries.append(_SuperLU())
+            self._libraries.append(_Rslab(matrix, lower))
+        self._libraries.append(_SuperLU(lower))
 
     def factor(self, matrix: csc_array) -> Factorization:
         """Return the factorization of a matrix with the analysed pattern.
@@ -81,7 +90,7 @@ class Analysis:
         probe = np.cos(np.arange(matrix.shape[0], dtype=np.float64))
         for library in self._libraries:
             try:
-                factorization = Factorization(matrix, library(matrix))
+                factorization = Factorization(matrix, library(matrix), lower=self._lower)
             except RuntimeError:
                 continue
             if factorization.residual(factorization.solve(probe), probe) <= RESIDUAL_BOUND:
@@ -113,21 +122,26 @@ def factorized(matrix: csc_array, *, accelerated: bool = True) -> Factorization:
 class _Rslab:
     """Supernodal LDL^T."""
 
-    def __init__(self, matrix: csc_array) -> None:
+    def __init__(self, matrix: csc_array, lower: bool) -> None:
+        self._lower = lower
         self._symbolic = rslab.analyze(matrix, path="ldlt", ordering="amd")
 
     def __call__(self, matrix: csc_array) -> Solve:
-        solve: Solve = self._symbolic.factor(matrix).solve
+        # The values of a lower triangle are taken as they are.
+        solve: Solve = self._symbolic.factor(matrix.data if self._lower else matrix).solve
         return solve
 
 
 class _SuperLU:
     """SuperLU in symmetric mode; a second matrix reuses the first one's order of elimination."""
 
-    def __init__(self) -> None:
+    def __init__(self, lower: bool) -> None:
+        self._lower = lower
         self._order: IntArray | None = None
 
     def __call__(self, matrix: csc_array) -> Solve:
+        if self._lower:
+            matrix = (matrix + matrix.T - diags_array(matrix.diagonal())).tocsc()
         if self._order is None:
             factor = splu(matrix, permc_spec="MMD_AT_PLUS_A", **SYMMETRIC_MODE)
             self._order = np.argsort(factor.perm_c)

@@ -12,6 +12,7 @@ the turn of the crosses against the initial field, at inner edge midpoints (Crou
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -24,6 +25,16 @@ from solvers.discretization import QUARTER, Discretization
 from solvers.operators import corner_midpoint_offsets
 from solvers.triangulation import FloatArray, IntArray, next_halfedge
 
+Pair = tuple[FloatArray, FloatArray]
+
+
+def norm(values: FloatArray) -> float:
+    """Return the square root of the sum of squares.
+
+    Not by BLAS: its threads would go on spinning and hold up those of the factorisation.
+    """
+    return float(np.sqrt((values * values).sum()))
+
 
 @dataclass(frozen=True, eq=False)
 class Residual:
@@ -33,17 +44,32 @@ class Residual:
     ----------
     values : (m, 2) float array
         The scaled rho1, rho2.
-    jacobian : (m, 2, 9) float array
-        Derivatives by the triangle's a (3), s (3) and delta (3).
+    differentiate : callable
+        Makes `jacobian`.
     """
 
     values: FloatArray
-    jacobian: FloatArray
+    differentiate: Callable[[], FloatArray]
 
     @property
     def energy(self) -> float:
         """E."""
-        return float(np.linalg.norm(self.values))
+        return norm(self.values)
+
+    @cached_property
+    def jacobian(self) -> FloatArray:
+        """(m, 2, 9) derivatives by the triangle's a (3), s (3) and delta (3)."""
+        return self.differentiate()
+
+    def pulled(self, forces: FloatArray) -> FloatArray:
+        """Return the (m, 9) products of the transposed derivative with forces (m, 2)."""
+        first, second = self.jacobian[:, 0].T, self.jacobian[:, 1].T
+        return np.asarray((first * forces[:, 0] + second * forces[:, 1]).T)
+
+    def pushed(self, steps: FloatArray) -> FloatArray:
+        """Return the (m, 2) products of the derivative with steps (m, 9)."""
+        rows = [(self.jacobian[:, r].T * steps.T).sum(axis=0) for r in (0, 1)]
+        return np.stack(rows).T
 
 
 class Integrability:
@@ -106,59 +132,72 @@ class Integrability:
     def hat_gradients(self) -> FloatArray:
         """(m, 3, 2) gradients of the corners' hat functions in each face's frame."""
         t = self.triangulation
-        p = t.corner_positions
-        opposite = p[:, [2, 0, 1]] - p[:, [1, 2, 0]]
-        turned = np.stack([-opposite[..., 1], opposite[..., 0]], axis=2)
-        return np.asarray(turned / (2 * t.areas)[:, None, None])
+        p = t.corner_positions.transpose(1, 2, 0)
+        opposite = p[[2, 0, 1]] - p[[1, 2, 0]]
+        turned = np.stack([-opposite[:, 1], opposite[:, 0]], axis=1)
+        return np.asarray((turned / (2 * t.areas)).transpose(2, 0, 1))
 
     @cached_property
     def hat_stiffness(self) -> FloatArray:
         """(m, 3, 3) P1 stiffness matrix of each face."""
-        hat, areas = self.hat_gradients, self.triangulation.areas
-        return np.asarray(np.einsum("mid,mjd,m->mij", hat, hat, areas))
+        x, y = self.hat_gradients.transpose(2, 1, 0)
+        products = x[:, None] * x[None] + y[:, None] * y[None]
+        return np.asarray((self.triangulation.areas * products).transpose(2, 0, 1))
 
     def local(self, x: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return a, s (with the sheet's sign) and delta of each triangle, (m, 3) each."""
         values = self.assembly.gathered(x)
-        return values[:, :3], self.sheet * values[:, 3:6], values[:, 6:]
+        return values[:, :3], self._signs.T * values[:, 3:6], values[:, 6:]
 
-    @property
-    def edge_gradients(self) -> FloatArray:
-        """(m, 3, 2) gradients of the Crouzeix-Raviart functions of each face's halfedges."""
-        # That of halfedge i is 1 - 2 times the hat function of corner i + 2.
-        return -2.0 * self.hat_gradients[:, [2, 0, 1]]
+    @cached_property
+    def _signs(self) -> FloatArray:
+        return np.ascontiguousarray(self.sheet.T).astype(np.float64)
 
-    def crosses(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return u and v, (m, 2) each, at the barycentres in the frames of the triangles."""
-        angle = self.theta + self.local(x)[2].mean(axis=1)
-        u = np.stack([np.cos(angle), np.sin(angle)], axis=1)
-        return u, np.stack([-u[:, 1], u[:, 0]], axis=1)
+    @cached_property
+    def _scale(self) -> FloatArray:
+        return np.sqrt(self.triangulation.areas)
 
     def frozen_turning(self, x: FloatArray) -> FloatArray:
         """Return the (m, 2, 3) derivative of the scaled residual by delta, u and v frozen."""
-        u, v = self.crosses(x)
-        edge, scale = self.edge_gradients, np.sqrt(self.triangulation.areas)
-        both = [-np.einsum("md,mid->mi", v, edge), np.einsum("md,mid->mi", u, edge)]
-        return scale[:, None, None] * np.stack(both, axis=1)
+        cos, sin = self._crosses(self.local(x)[2])
+        _, (along_u, along_v) = self._along(cos, sin)
+        return np.stack([-self._scale * along_v, self._scale * along_u]).transpose(2, 0, 1)
+
+    def _crosses(self, delta: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the components (m,) of u at the barycentres; v is 90 degrees further."""
+        angle = self.theta + delta.mean(axis=1)
+        return np.cos(angle), np.sin(angle)
+
+    def _along(self, cos: FloatArray, sin: FloatArray) -> tuple[Pair, Pair]:
+        """Return derivatives (3, m) along u and v of the hat functions and of the edges'."""
+        x, y = self.hat_gradients.transpose(2, 1, 0)
+        hat = cos * x + sin * y, cos * y - sin * x
+        # The function of halfedge i is 1 - 2 times the hat function of corner i + 2.
+        return hat, (-2.0 * hat[0][[2, 0, 1]], -2.0 * hat[1][[2, 0, 1]])
 
     def residual(self, x: FloatArray) -> Residual:
         """Return the scaled residual and its derivative at the unknowns `x`."""
-        a, s, delta = self.local(x)
-        hat, edge = self.hat_gradients, self.edge_gradients
-        h1 = np.einsum("mi,mid->md", -a - s, hat)
-        h2 = np.einsum("mi,mid->md", -a + s, hat)
-        turning = self._turning + np.einsum("mi,mid->md", delta, edge)
-        u, v = self.crosses(x)
-        dot = lambda p, q: np.einsum("md,md->m", p, q)  # noqa: E731
-        along = lambda w, g: np.einsum("md,mid->mi", w, g)  # noqa: E731
-        rho = np.stack([dot(u, h2) - dot(v, turning), dot(v, h1) + dot(u, turning)], axis=1)
-        by_angle = np.stack([dot(v, h2) + dot(u, turning), dot(v, turning) - dot(u, h1)], axis=1)
-        hat_u, hat_v = along(u, hat), along(v, hat)
-        first = [-hat_u, self.sheet * hat_u, by_angle[:, :1] / 3 - along(v, edge)]
-        second = [-hat_v, -self.sheet * hat_v, by_angle[:, 1:] / 3 + along(u, edge)]
-        jacobian = np.stack([np.concatenate(first, 1), np.concatenate(second, 1)], axis=1)
-        scale = np.sqrt(self.triangulation.areas)
-        return Residual(scale[:, None] * rho, scale[:, None, None] * jacobian)
+        a, s, delta = (values.T for values in self.local(x))
+        cos, sin = self._crosses(delta.T)
+        hat, edge = self._along(cos, sin)
+        turn_x, turn_y = self._turning.T
+        turning_u = cos * turn_x + sin * turn_y + (delta * edge[0]).sum(axis=0)
+        turning_v = cos * turn_y - sin * turn_x + (delta * edge[1]).sum(axis=0)
+        h1_u, h1_v = ((-(a + s) * along).sum(axis=0) for along in hat)
+        h2_u, h2_v = (((s - a) * along).sum(axis=0) for along in hat)
+        rho = np.stack([h2_u - turning_v, h1_v + turning_u])
+        scale, signs = self._scale, self._signs
+
+        def differentiate() -> FloatArray:
+            jacobian = np.empty((2, 9, len(scale)))
+            jacobian[0, :3], jacobian[1, :3] = -hat[0], -hat[1]
+            jacobian[0, 3:6], jacobian[1, 3:6] = signs * hat[0], -signs * hat[1]
+            jacobian[0, 6:] = (h2_v + turning_u) / 3 - edge[1]
+            jacobian[1, 6:] = (turning_v - h1_u) / 3 + edge[0]
+            jacobian *= scale
+            return jacobian.transpose(2, 0, 1)
+
+        return Residual((scale * rho).T, differentiate)
 
 
 def _sheets(twin: IntArray, quarter_turns: IntArray) -> IntArray:
