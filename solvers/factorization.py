@@ -138,16 +138,16 @@ class _SuperLU:
     def __init__(self, lower: bool) -> None:
         self._lower = lower
         self._order: IntArray | None = None
+        self._source: IntArray
+        self._ordered: csc_array
 
     def __call__(self, matrix: csc_array) -> Solve:
-        if self._lower:
-            matrix = (matrix + matrix.T - diags_array(matrix.diagonal())).tocsc()
         if self._order is None:
-            factor = splu(matrix, permc_spec="MMD_AT_PLUS_A", **SYMMETRIC_MODE)
+            factor = splu(self._full(matrix), permc_spec="MMD_AT_PLUS_A", **SYMMETRIC_MODE)
             self._order = np.argsort(factor.perm_c)
             return factor.solve
         order = self._order
-        factor = splu(matrix[order][:, order].tocsc(), permc_spec="NATURAL", **SYMMETRIC_MODE)
+        factor = splu(self._in_order(matrix, order), permc_spec="NATURAL", **SYMMETRIC_MODE)
 
         def solve(right_hand_side: FloatArray) -> FloatArray:
             solution = np.empty_like(right_hand_side)
@@ -155,3 +155,20 @@ class _SuperLU:
             return solution
 
         return solve
+
+    def _full(self, matrix: csc_array) -> csc_array:
+        if not self._lower:
+            return matrix
+        return (matrix + matrix.T - diags_array(matrix.diagonal())).tocsc()
+
+    def _in_order(self, matrix: csc_array, order: IntArray) -> csc_array:
+        """Return the whole matrix in the order of elimination; where each value goes is kept."""
+        if not hasattr(self, "_source"):
+            numbers = np.arange(1.0, len(matrix.data) + 1)
+            numbered = csc_array((numbers, matrix.indices, matrix.indptr), shape=matrix.shape)
+            self._ordered = self._full(numbered)[order][:, order].tocsc()
+            self._ordered.sort_indices()
+            self._source = np.rint(self._ordered.data).astype(np.int64) - 1
+        values = matrix.data[self._source]
+        pattern = self._ordered
+        return csc_array((values, pattern.indices, pattern.indptr), shape=pattern.shape)

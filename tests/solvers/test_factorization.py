@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from scipy.sparse import csc_array, diags_array
+from scipy.sparse import csc_array, diags_array, tril
 
 from solvers.errors import SolveError
-from solvers.factorization import factorized
+from solvers.factorization import Analysis, factorized
 from solvers.operators import stiffness
 from tests.solvers.suite import SURFACES
 
@@ -19,6 +19,20 @@ def test_both_libraries_solve_the_stiffness_system(name: str, accelerated: bool)
     solution = factorization.solve(matrix @ expected)
     assert np.abs(solution - expected).max() < 1e-7
     assert factorization.residual(solution, matrix @ expected) < 1e-14
+
+
+@pytest.mark.parametrize("accelerated", [True, False])
+@pytest.mark.parametrize("lower", [True, False])
+def test_one_analysis_serves_many_matrices(accelerated: bool, lower: bool) -> None:
+    whole = stiffness(SURFACES["plate"]().triangulation)[1:, 1:]
+    expected = np.random.default_rng(0).normal(size=whole.shape[0])
+    stored = csc_array(tril(whole)) if lower else csc_array(whole)
+    analysis = Analysis(stored, accelerated=accelerated, lower=lower)
+    for factor in (1.0, 2.0, 3.0, 4.0):
+        factorization = analysis.factor(factor * stored)
+        solution = factorization.solve(factor * (whole @ expected))
+        assert np.abs(solution - expected).max() < 1e-9
+        assert factorization.residual(solution, factor * (whole @ expected)) < 1e-14
 
 
 def test_a_singular_system_is_the_projects_own_error() -> None:
