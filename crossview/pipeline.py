@@ -91,10 +91,15 @@ class Pipeline:
             raise CrossviewError("nothing has been solved yet")
         return _solution(self._stage, self._problem, step.so_far, {})
 
+    @property
+    def stage(self) -> Stage | None:
+        """The refined surface of the last `solve`, or of the one that runs."""
+        return self._stage
+
     def _kept_by(self, problem: Problem, sizes: FloatArray | None) -> Solution | None:
         """The last solution of this very problem by its method."""
         kept = self._kept.get(problem.method)
-        if kept is None or not _same_but_method(kept.problem, problem):
+        if kept is None or not problem.same_but_method(kept.problem):
             return None
         if sizes is None:
             return kept
@@ -109,7 +114,7 @@ class Pipeline:
             points = [s.point for s in problem.singularities]
             refinement = refine_at(problem.surface, points, problem.options.refine)
             self._stage = Stage(problem, refinement)
-        if before is None or not _same_but_method(before, problem):
+        if before is None or not problem.same_but_method(before):
             self._kept = {}
         return self._stage
 
@@ -181,15 +186,6 @@ def _solution(
         integrated,
         verdict,
         growth,
-    )
-
-
-def _same_but_method(one: Problem, other: Problem) -> bool:
-    return (
-        one.surface is other.surface
-        and one.singularities == other.singularities
-        and one.chosen_corners == other.chosen_corners
-        and one.options == other.options
     )
 
 

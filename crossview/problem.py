@@ -72,6 +72,15 @@ class Problem:
         """The corners, the automatic ones if none are given."""
         return default_corners(self.surface) if self.corners is None else self.corners
 
+    def same_but_method(self, other: Problem) -> bool:
+        """Whether the other problem differs from this one in its method at most."""
+        return (
+            self.surface is other.surface
+            and self.singularities == other.singularities
+            and self.chosen_corners == other.chosen_corners
+            and self.options == other.options
+        )
+
     def to_case(self, surface: str | Builtin, title: str = "") -> Case:
         """The case that describes this problem on the surface called `surface`."""
         singularities = tuple(

@@ -34,7 +34,7 @@ class FieldStep(Progress):
     stage, fraction
         As in `Progress`.
     energies : tuple of float
-        E so far.
+        E at the start and after each iteration so far.
     so_far : IntegratedField
         The field of this iteration, not converged; its parts are computed when asked for.
     """
@@ -121,7 +121,7 @@ def _shown(
     aligned: AlignedField, method: str, iteration: Iteration, before: tuple[float, ...] = ()
 ) -> Iteration:
     """Run an iteration, showing each step as a field."""
-    energies = list(before)
+    energies = list(before) or [aligned.integrability.residual(aligned.start).energy]
     while True:
         try:
             step = next(iteration)

@@ -6,9 +6,12 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
 
+from crossview.case import METHODS
 from crossview.gui.actions import ActionSpec
 from crossview.gui.state import WindowState
 from crossview.scene import LAYERS
+from crossview.session.commands import METHOD_LABELS
+from crossview.session.moving import NATURAL_LABELS
 
 if TYPE_CHECKING:
     from crossview.gui.main_window import MainWindow
@@ -62,6 +65,49 @@ def _tools() -> tuple[ActionSpec, ...]:
             lambda state, valence=valence: state.tool == valence,  # type: ignore[misc]
         )
         for valence in TOOL_VALENCES
+    )
+
+
+def _movable(state: WindowState) -> bool:
+    """Whether the budget holds, some defect is not 0, and it is not being mended."""
+    return state.defects is not None and not state.valid and state.moving is None
+
+
+def _naturals() -> tuple[ActionSpec, ...]:
+    return tuple(
+        ActionSpec(
+            f"natural-{method}",
+            label,
+            "Singularities",
+            lambda w, method=method: w.workspace.place_natural(method),  # type: ignore[misc]
+            tip="Replace the singularities by those that a smooth cross-field has by itself",
+            enabled=_open,
+            submenu="Natural singularities",
+        )
+        for method, label in NATURAL_LABELS.items()
+    )
+
+
+def _methods() -> tuple[ActionSpec, ...]:
+    tips = {
+        "isotropic": "One size at each place; follows every edit",
+        "aligned": "Boundary-aligned with the singularities imposed, integrable or not",
+        "anisotropic": "Two sizes, so that the aligned field becomes integrable",
+        "alternating": "The paper's own iteration for two sizes; may stall",
+    }
+    return tuple(
+        ActionSpec(
+            f"method-{method}",
+            METHOD_LABELS[method],
+            "Solve",
+            lambda w, method=method: w.workspace.choose_method(method),  # type: ignore[misc]
+            (f"Num+{key}",) if method != "alternating" else (),
+            tip=tips[method],
+            enabled=_open,
+            checked=lambda s, method=method: s.method == method,  # type: ignore[misc]
+            separated=method == METHODS[0],
+        )
+        for key, method in enumerate(METHODS, start=1)
     )
 
 
@@ -172,12 +218,25 @@ ACTIONS: tuple[ActionSpec, ...] = (
         tip="Delete every singularity", enabled=lambda s: len(s.singularities) > 0,
     ),
     ActionSpec(
+        "make-valid", "Make valid", "Singularities", lambda w: w.workspace.make_valid(),
+        tip="Move unlocked singularities as little as need be until every loop closes",
+        enabled=_movable, separated=True,
+    ),
+    *_naturals(),
+    ActionSpec(
         "solve", "Solve", "Solve", lambda w: w.workspace.solving.solve(), ("F5",), "solve",
         "Solve again with refinement at the singularities", _solvable,
     ),
     ActionSpec(
         "stop", "Stop", "Solve", lambda w: w.workspace.solving.stop(), ("Shift+F5",), "stop",
         "Stop the computation; the last field stays", lambda s: s.progress is not None,
+    ),
+    *_methods(),
+    ActionSpec(
+        "compare", "Compare with the start", "Solve", lambda w: w.workspace.compare(), ("C",),
+        tip="Show the error density that the method started from, on the range of the result",
+        enabled=lambda s: s.start is not None,
+        checked=lambda s: s.comparing and s.start is not None, separated=True,
     ),
     ActionSpec(
         "fit", "Fit to window", "View", lambda w: w.viewport.fit(), ("F",), "fit",
@@ -201,7 +260,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
 
 TOOLBAR: tuple[str, ...] = (
     "open", "|", "undo", "redo", "|", "select", "add-3", "add-5", "add-6", "add-8", "add-any",
-    "any-valence", "|", "solve", "stop", "->", "fit", "figure",
+    "any-valence", "|", "method", "solve", "stop", "->", "fit", "figure",
 )  # fmt: skip
 """Names of actions; "|" is a line, "->" pushes the rest to the right."""
 

@@ -45,6 +45,8 @@ class ActionSpec:
         Whether it is on, for those that are.
     separated : bool
         A line comes before it in its menu.
+    submenu : str
+        Title of the submenu it is in, if any.
     """
 
     name: str
@@ -57,6 +59,7 @@ class ActionSpec:
     enabled: Callable[[WindowState], bool] = _always
     checked: Callable[[WindowState], bool] | None = None
     separated: bool = False
+    submenu: str = ""
 
 
 class Actions:

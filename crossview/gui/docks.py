@@ -22,6 +22,7 @@ def add_docks(window: MainWindow) -> dict[str, QDockWidget]:
         ("Singularities", window.singularities_panel, LEFT),
         ("Validity", window.validity_panel, LEFT),
         ("Layers", window.layers_panel, RIGHT),
+        ("Convergence", window.convergence_panel, RIGHT),
         ("Export", window.export_panel, RIGHT),
     )
     docks = {}
@@ -46,7 +47,7 @@ def size_docks(window: MainWindow) -> None:
     )
     for column, shares in (
         (("Surface", "Singularities", "Validity"), (0.24, 0.42, 0.34)),
-        (("Layers", "Export"), (0.68, 0.32)),
+        (("Layers", "Convergence", "Export"), (0.4, 0.36, 0.24)),
     ):
         window.resizeDocks(
             [docks[title] for title in column],

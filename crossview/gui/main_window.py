@@ -20,8 +20,10 @@ from crossview.gui.empty_state import EmptyState
 from crossview.gui.files import Files
 from crossview.gui.menus import Menus, make_toolbar
 from crossview.gui.message_bar import MessageBar
+from crossview.gui.method_box import MethodBox
 from crossview.gui.palette import Palette
 from crossview.gui.panels import (
+    ConvergencePanel,
     ExportPanel,
     LayersPanel,
     SingularitiesPanel,
@@ -81,11 +83,13 @@ class MainWindow(QMainWindow):
         named = self.actions_table.by_name
         self.surface_panel = SurfacePanel(self.workspace)
         self.singularities_panel: SingularitiesPanel = SingularitiesPanel(self.workspace, named)
-        self.validity_panel = ValidityPanel(self.workspace)
+        self.validity_panel = ValidityPanel(self.workspace, named["make-valid"])
         self.layers_panel = LayersPanel(self.workspace)
+        self.convergence_panel = ConvergencePanel(named["compare"])
         self.export_panel = ExportPanel(named["figure"])
         self.docks = add_docks(self)
         self.menus = Menus(self)
+        self.method_box: MethodBox = MethodBox(self.workspace)
         self.toolbar = make_toolbar(self)
         self.status = Status(self)
         self._sized = False
@@ -153,6 +157,8 @@ class MainWindow(QMainWindow):
             self.singularities_panel,
             self.validity_panel,
             self.layers_panel,
+            self.convergence_panel,
+            self.method_box,
             self.status,
         ):
             panel.show_state(old, new)

@@ -11,7 +11,7 @@ from PySide6.QtCore import QLocale, QSize, Qt
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QMenu, QSizePolicy, QSpinBox, QToolBar, QToolButton, QWidget
 
-from crossview.case import Case
+from crossview.case import METHODS, Case
 from crossview.gallery import names, path_of
 from crossview.gui.action_table import ACTIONS, LABELLED, TOOL_VALENCES, TOOLBAR
 from crossview.gui.recent import forget_all, recent
@@ -20,6 +20,8 @@ from crossview.session.commands import MAX_VALENCE, MIN_VALENCE
 if TYPE_CHECKING:
     from crossview.gui.main_window import MainWindow
 
+SEARCHED = ("Natural singularities",)
+"""Submenus whose actions are in the palette: the others repeat some."""
 MENUS = ("File", "Edit", "Surface", "Singularities", "Solve", "View", "Gallery", "Help")
 
 
@@ -29,12 +31,15 @@ class Menus:
     def __init__(self, window: MainWindow) -> None:
         self._window = window
         self._menus: dict[str, QMenu] = {}
+        self._submenus: dict[str, QMenu] = {}
         for title in MENUS:
             self._menus[title] = window.menuBar().addMenu(f"&{title}")
         for spec in ACTIONS:
             menu = self._menus[spec.menu]
             if spec.separated:
                 menu.addSeparator()
+            if spec.submenu:
+                menu = self._submenu(menu, spec.submenu)
             menu.addAction(window.actions_table.by_name[spec.name])
         self._recent = QMenu("Open recent", window)
         file_menu = self._menus["File"]
@@ -56,8 +61,7 @@ class Menus:
         return [
             (f"{title}: {action.text().replace('&', '').rstrip('…')}", action)
             for title, menu in self._menus.items()
-            for action in menu.actions()
-            if not action.isSeparator() and action.menu() is None
+            for action in _leaves(menu)
         ]
 
     def show_recent(self) -> None:
@@ -87,15 +91,38 @@ class Menus:
 
     def _fill_view(self) -> None:
         view = self._menus["View"]
+        methods = QMenu("Method", self._window)
+        for method in METHODS:
+            methods.addAction(self._window.actions_table.by_name[f"method-{method}"])
+        view.insertMenu(self._window.actions_table.by_name["fit"], methods)
         view.addSeparator()
         for dock in self._window.docks.values():
             view.addAction(dock.toggleViewAction())
+
+    def _submenu(self, menu: QMenu, title: str) -> QMenu:
+        """Return the submenu of this title, added if it is not there yet."""
+        if title not in self._submenus:
+            self._submenus[title] = menu.addMenu(title)
+            self._submenus[title].setObjectName(title)
+        return self._submenus[title]
 
     def _add(self, menu: QMenu, text: str, run: Callable[[], object]) -> QAction:
         action = QAction(text, menu)
         action.triggered.connect(lambda: run())
         menu.addAction(action)
         return action
+
+
+def _leaves(menu: QMenu) -> list[QAction]:
+    """Return the actions of a menu and of the submenus that its own actions fill."""
+    found = []
+    for action in menu.actions():
+        inner = action.menu()
+        if isinstance(inner, QMenu) and inner.title() in SEARCHED:
+            found += _leaves(inner)
+        elif inner is None and not action.isSeparator():
+            found.append(action)
+    return found
 
 
 def make_toolbar(window: MainWindow) -> QToolBar:
@@ -109,6 +136,8 @@ def make_toolbar(window: MainWindow) -> QToolBar:
             bar.addSeparator()
         elif name == "any-valence":
             bar.addWidget(_any_valence_box(window))
+        elif name == "method":
+            bar.addWidget(window.method_box)
         elif name == "->":
             bar.addWidget(_spring())
         else:

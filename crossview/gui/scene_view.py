@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from types import MappingProxyType
 
 import numpy as np
 
@@ -11,21 +12,26 @@ from crossview.gui.figure_settings import FigureSettings
 from crossview.gui.state import WindowState
 from crossview.scene import Elements, LayerSettings, Marker, SceneView, field_view
 from crossview.scene.view import Background
+from crossview.session.document import Document
+from solvers.crossfield import CrossField
 from solvers.surface import TriSurface
 from solvers.triangulation import FloatArray, IntArray
 
 POOR_QUALITY = 0.1
 Range = tuple[float, float]
+Ranges = Mapping[str, Range]
+NO_RANGES: Ranges = MappingProxyType({})
 
 
-def scene_view(state: WindowState, held_range: Range | None = None) -> SceneView:
+def scene_view(state: WindowState, held: Ranges = NO_RANGES) -> SceneView:
     """Return what to draw.
 
     Parameters
     ----------
     state : WindowState
-    held_range : (float, float), optional
-        Colour range to keep, so that colours do not jump while something is dragged.
+    held : mapping of str to (float, float)
+        Colour ranges to keep by layer, so that colours do not jump while something is dragged or
+        the method is changed.
     """
     surface, document = state.shown_surface, state.document
     background: Background = "dark" if state.dark else "white"
@@ -50,15 +56,18 @@ def scene_view(state: WindowState, held_range: Range | None = None) -> SceneView
         view = SceneView(surface.vertices, surface.faces)
     else:
         view = field_view(field, state.cut_graph)
+        start = _start(state)
+        if state.comparing and start is not None:
+            view = replace(view, error_density=start.error_density)
     return replace(
         view,
         singularities=markers,
         preview=_preview(state, surface),
         loop=_loop(state),
         problem=Elements(faces=poor_faces(surface)) if state.poor else None,
-        title=document.source.title or document.name,
+        title=_title(state, document),
         background=background,
-        layers=_layers(state.layers, held_range),
+        layers=_layers(state.layers, held),
     )
 
 
@@ -67,9 +76,12 @@ def poor_faces(surface: TriSurface) -> IntArray:
     return np.flatnonzero(surface.triangle_quality < POOR_QUALITY)
 
 
-def figure_view(state: WindowState, settings: FigureSettings) -> SceneView:
+def figure_view(
+    state: WindowState, settings: FigureSettings, held: Ranges = NO_RANGES
+) -> SceneView:
     """Return what to draw in a figure: what is shown, without what only helps to edit."""
-    view = scene_view(replace(state, trial=None, selected=None, condition=None, poor=False))
+    plain = replace(state, trial=None, selected=None, condition=None, poor=False)
+    view = scene_view(plain, held)
     return replace(view, background="transparent") if settings.transparent else view
 
 
@@ -86,12 +98,25 @@ def _loop(state: WindowState) -> IntArray | None:
     return state.base.solver.holonomy.conditions[state.condition].path
 
 
-def _layers(
-    layers: Mapping[str, LayerSettings], held_range: Range | None
-) -> Mapping[str, LayerSettings]:
-    if held_range is None or layers["H"].value_range is not None:
-        return layers
-    return {**layers, "H": replace(layers["H"], value_range=held_range)}
+def _title(state: WindowState, document: Document) -> str:
+    title = document.source.title or document.name
+    shown = state.comparing and state.layers["error"].visible and _start(state) is not None
+    return f"{title} \u2013 error at the start" if shown else title
+
+
+def _start(state: WindowState) -> CrossField | None:
+    """Return the start if it can be compared with the field shown."""
+    start, field = state.start, state.field
+    return start if start and field and start.surface is field.surface else None
+
+
+def _layers(layers: Mapping[str, LayerSettings], held: Ranges) -> Mapping[str, LayerSettings]:
+    kept = {
+        name: replace(layers[name], value_range=limits)
+        for name, limits in held.items()
+        if layers[name].value_range is None
+    }
+    return {**layers, **kept}
 
 
 def _triple(position: FloatArray) -> tuple[float, float, float]:

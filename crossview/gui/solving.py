@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator
 from functools import partial
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from crossview.gui.background import Background
 from crossview.gui.state import Message
 from crossview.gui.store import Store
-from crossview.pipeline import Pipeline, Solution
-from crossview.session.live import LiveBase, LiveEdit, cut, prepare, solve
+from crossview.session.live import LiveBase, LiveEdit, cut, prepare
+from crossview.session.methods import Iterate, MethodSolver, Solved
+from crossview.session.moving import Moving
 from solvers.crossfield import CrossField
 from solvers.progress import Progress
 
@@ -22,10 +23,11 @@ class Solving:
 
     def __init__(self, store: Store) -> None:
         self._store = store
-        self._pipeline = Pipeline()
+        self._solver = MethodSolver()
         self._background = Background(store)
-        self._background.progressed.connect(lambda progress: store.set(progress=progress))
-        self._background.stopped.connect(self._stopped)
+        self._background.progressed.connect(self._progressed)
+        self._background.stopped.connect(lambda: self._when_stopped())
+        self._when_stopped: Callable[[], None] = self._say_stopped
 
     @property
     def busy(self) -> bool:
@@ -37,13 +39,17 @@ class Solving:
         job: Callable[[], Generator[Progress, None, T]],
         done: Callable[[T], None],
         fail: Callable[[Exception], None],
+        stopped: Callable[[], None] | None = None,
     ) -> None:
-        """Run any job in place of what runs now."""
+        """Run any job in place of what runs now; `stopped` is called if the user stops it."""
+        self._when_stopped = stopped or self._say_stopped
+        self._store.set(iterate=None, moving=None)
         self._background.submit(job, done, fail)
 
     def follow(self) -> None:
         """Drop what was asked before and bring the results in line with the present document."""
         self._background.forget()
+        self._store.set(iterate=None)
         self._store.clear_message("solve")
         document, base = self._store.state.document, self._store.state.base
         if document is None:
@@ -58,7 +64,8 @@ class Solving:
         """Solve the present document with refinement, if its index budget holds."""
         document = self._store.state.document
         if document is not None and document.budget.satisfied:
-            self.run(partial(solve, self._pipeline, document.problem), self._show, self._failed)
+            job = partial(self._solver.solve, document.problem)
+            self.run(job, self._show, self._failed, self._keep_iterate)
 
     def resume(self) -> None:
         """Go on with what another job has displaced."""
@@ -90,18 +97,63 @@ class Solving:
         """End the background thread."""
         self._background.close()
 
-    def _show(self, solution: Solution) -> None:
+    def restore(self) -> None:
+        """Show the present document's own field again, after a job that has shown others."""
+        state = self._store.state
+        if state.solution is not None and state.solved:
+            self._store.set(field=state.solution.field, cut_graph=None)
+            self.cut_if_wanted()
+        else:
+            self.follow()
+
+    def _progressed(self, progress: Progress | None) -> None:
+        changes: dict[str, Any] = {"progress": progress}
+        if progress is None:
+            changes["moving"] = None
+        elif isinstance(progress, Iterate):
+            changes |= {"iterate": progress, "start": progress.start}
+            if progress.field is not None:
+                changes |= {"field": progress.field, "base": progress.base, "cut_graph": None}
+        elif isinstance(progress, Moving):
+            changes["moving"] = progress
+            if progress.field is not None:
+                changes |= {"field": progress.field, "cut_graph": None}
+        self._store.set(**changes)
+
+    def _show(self, solved: Solved) -> None:
         self._store.clear_message("solve")
-        base = LiveBase.from_solution(solution)
-        self._store.set(solution=solution, base=base, field=solution.field, cut_graph=None)
+        solution = solved.solution
+        self._store.set(
+            solution=solution,
+            base=LiveBase.from_solution(solution),
+            field=solution.field,
+            start=solved.start,
+            iterate=None,
+            cut_graph=None,
+        )
         self.cut_if_wanted()
 
     def _show_live(self, field: CrossField) -> None:
         self._store.set(field=field, cut_graph=None)
 
     def _failed(self, error: Exception) -> None:
-        self._store.set(solution=None, field=None, cut_graph=None)
+        self._store.set(solution=None, field=None, start=None, iterate=None, cut_graph=None)
         self._store.fail(error, "solve")
 
-    def _stopped(self) -> None:
+    def _keep_iterate(self) -> None:
+        """Make the last iterate of a stopped solve its result, and say that it is no more."""
+        iterate = self._store.state.iterate
+        if iterate is None:
+            self._say_stopped()
+            return
+
+        def show(solved: Solved) -> None:
+            self._show(solved)
+            energy = f"{solved.solution.field.energy:.1e}"
+            text = f"Stopped: the last iterate is kept, not converged (E = {energy})"
+            self._store.set(message=Message(text, "solve", "info"))
+
+        self.run(partial(self._solver.keep, iterate.step), show, self._failed)
+
+    def _say_stopped(self) -> None:
         self._store.set(message=Message("Stopped; what was there is kept", "solve", "info"))

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
+from crossview.case import METHODS
 from crossview.pipeline import Solution
+from crossview.problem import Problem
 from crossview.scene import Elements, LayerSettings, default_layers
 from crossview.session.document import Document
 from crossview.session.live import LiveBase, LiveEdit
+from crossview.session.methods import Iterate
+from crossview.session.moving import Moving
 from solvers.crossfield import CrossField
 from solvers.points import SurfacePoint
 from solvers.progress import Progress
@@ -107,7 +112,15 @@ class WindowState:
     solution : Solution or None
         The last finished one, whose document may have moved on.
     field : CrossField or None
-        What is drawn: of `solution`, or of a drag.
+        What is drawn: of `solution`, of `iterate`, of a drag or of `moving`.
+    start : CrossField or None
+        What the method of `solution` or `iterate` started from; None if it is isotropic.
+    iterate : Iterate or None
+        The last iteration of a solve that runs.
+    moving : Moving or None
+        Where singularities are while they are made valid.
+    comparing : bool
+        Whether the error density of `start` is shown in place of that of `field`.
     cut_graph : (k, 2) int array or None
         Vertex pairs, of the field of `solution`; only computed while its layer is visible.
     tool : int or None
@@ -134,6 +147,10 @@ class WindowState:
     base: LiveBase | None = None
     solution: Solution | None = None
     field: CrossField | None = None
+    start: CrossField | None = None
+    iterate: Iterate | None = None
+    moving: Moving | None = None
+    comparing: bool = False
     cut_graph: IntArray | None = None
     tool: int | None = None
     any_valence: int = 7
@@ -150,7 +167,9 @@ class WindowState:
 
     @property
     def singularities(self) -> tuple[Singularity, ...]:
-        """The singularities on the document's surface, a drag included."""
+        """The singularities on the document's surface, a drag or their own way included."""
+        if self.moving is not None:
+            return self.moving.singularities
         if self.trial is not None and self.trial.drag:
             return self.trial.singularities
         return () if self.document is None else self.document.singularities
@@ -180,13 +199,43 @@ class WindowState:
 
     @property
     def defects(self) -> FloatArray | None:
-        """Holonomy defects in radians, with the trial; None while they have no meaning."""
+        """Holonomy defects in radians of the isotropic field, with the trial; None without one.
+
+        They are of the configuration: a method that bridges them leaves them as they are.
+        """
+        if self.moving is not None:
+            return self.moving.defects
         budget = self.budget
         if budget is None or not budget.satisfied:
             return None
         if self.trial is not None:
             return None if self.trial.edit is None else self.trial.edit.defects()
+        if self.iterate is not None:
+            return self.iterate.step.so_far.aligned.isotropic.defects
+        if self.solution is not None and self.field is self.solution.field:
+            return self.solution.holonomy_defects
         return None if self.field is None else self.field.defects
+
+    @property
+    def valid(self) -> bool:
+        """Whether the index budget holds and all holonomy defects are known and small."""
+        defects = self.defects
+        limit = math.radians(self.tolerance)
+        return defects is not None and all(abs(defect) < limit for defect in defects)
+
+    @property
+    def method(self) -> str:
+        """The method that the document is solved by."""
+        return METHODS[0] if self.document is None else self.document.problem.method
+
+    @property
+    def shown_problem(self) -> Problem | None:
+        """What `field` solves, or is about to solve; None while it only follows the mouse."""
+        if self.iterate is not None and self.document is not None:
+            return self.document.problem
+        if self.solution is not None and self.field is self.solution.field:
+            return self.solution.problem
+        return None
 
     @property
     def tolerance(self) -> float:

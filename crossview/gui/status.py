@@ -8,9 +8,10 @@ import numpy as np
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QLabel, QProgressBar, QToolButton
 
-from crossview.gui.panels.texts import hover
+from crossview.gui.panels.texts import energy, hover
 from crossview.gui.picking import Pick
 from crossview.gui.state import WindowState
+from crossview.session.methods import Iterate
 from solvers.progress import Progress
 
 if TYPE_CHECKING:
@@ -57,7 +58,7 @@ class Status:
             self._patience.stop()
             self._show_bar(False)
             return
-        self.stage.setText(progress.stage)
+        self.stage.setText(_stage(progress))
         self.bar.setValue(round(100 * progress.fraction))
         if not self._patience.isActive() and self.bar.isHidden():
             self._patience.start()
@@ -79,3 +80,10 @@ class Status:
 
     def _show_frame(self, milliseconds: float) -> None:
         self.frame.setText(f"{milliseconds:.0f} ms/frame")
+
+
+def _stage(progress: Progress) -> str:
+    if not isinstance(progress, Iterate):
+        return progress.stage
+    so_far = progress.step.energies
+    return f"{progress.stage} {len(so_far) - 1}  E = {energy(so_far[-1])}"

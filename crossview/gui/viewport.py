@@ -23,10 +23,12 @@ from pyvistaqt import QtInteractor
 
 from crossview.gui.mouse import Mouse
 from crossview.gui.picking import Pick, Picker, Place
-from crossview.gui.scene_view import scene_view
+from crossview.gui.scene_view import Range, scene_view
 from crossview.gui.state import WindowState
 from crossview.gui.workspace import Workspace
-from crossview.scene import Scene, software_renderer
+from crossview.problem import Problem
+from crossview.scene import Scene, SceneView, software_renderer
+from crossview.scene.scalars import density_limits, shown_scalar
 from crossview.scene.singularities import marker_radius
 
 LATE_MS = 120
@@ -36,6 +38,8 @@ REST_MS = 300
 TITLE_PIXELS, BESIDE_TITLE = 17, 130
 """Height of the title's letters; pixels beside it that the axes need."""
 BASE_DPI = 72
+HELD = {"H": ("H",), "H1": ("H1", "H2"), "H2": ("H1", "H2")}
+"""Layers whose colour range stays when another method is chosen, by the layer shown."""
 REACH = 7.0
 """Pixels around a singularity that count as on it."""
 
@@ -66,7 +70,8 @@ class Viewport(QWidget):
         self.picker = Picker(self.plotter.renderer)
         self.mouse = Mouse(self, workspace)
         self.plotter.installEventFilter(self.mouse)
-        self._held_range: tuple[float, float] | None = None
+        self._held_for: Problem | None = None
+        self.held_ranges: dict[str, Range] = {}
         self._started = 0.0
         self._fitted: str | None = "auto"  # the preset view, until the user turns it
         self._late = self._timer(LATE_MS, self._draw)
@@ -81,10 +86,8 @@ class Viewport(QWidget):
     def show_state(self, old: WindowState, new: WindowState) -> None:
         """Follow the window's state."""
         dragging = new.trial is not None and new.trial.drag
-        if not dragging:
-            self._held_range = None
-        elif self._held_range is None:
-            self._held_range = self.scene.h_range
+        if _same_picture(old, new):
+            return
         self.picker.aim(new.shown_surface)
         # One frame for the dot and its field, unless the field takes too long: frames cost more.
         if dragging and new.field is not None and new.field is old.field:
@@ -96,9 +99,33 @@ class Viewport(QWidget):
         self._draw()
 
     def _draw(self) -> None:
-        view = scene_view(self._workspace.state, self._held_range)
+        state = self._workspace.state
+        self._drop_ranges(state)
+        view = scene_view(state, self.held_ranges)
         if self.scene.show(replace(view, title=self._elided(view.title))):
             self._update()
+        self._hold_range(state, view)
+
+    def _drop_ranges(self, state: WindowState) -> None:
+        """Fit colours anew to a field of another problem; another method's keeps them."""
+        problem = state.shown_problem
+        if problem is None:
+            return
+        if self._held_for is None or not problem.same_but_method(self._held_for):
+            self.held_ranges = {}
+        self._held_for = problem
+        if state.start is not None and "error" not in self.held_ranges:
+            areas = state.start.surface.face_areas
+            self.held_ranges["error"] = density_limits(state.start.error_density, areas)
+
+    def _hold_range(self, state: WindowState, view: SceneView) -> None:
+        """Keep the range of what is shown of a solution."""
+        if state.iterate is not None or state.shown_problem is None:
+            return
+        name = shown_scalar(view)
+        for held in HELD.get(name, ()):
+            if state.layers[held].value_range is None:
+                self.held_ranges.setdefault(held, self.scene.limits)
 
     def _update(self) -> None:
         """Ask for one frame, fast; a smooth one follows when nothing moves any more."""
@@ -212,3 +239,13 @@ class Viewport(QWidget):
     def _frame_ended(self, *_: object) -> None:
         if not self._resting:
             self.frame_drawn.emit(1000.0 * (time.perf_counter() - self._started))
+
+
+def _same_picture(old: WindowState, new: WindowState) -> bool:
+    """Whether only what the scene does not show differs."""
+    unseen = {"progress", "undo_name", "redo_name"}
+    return old.faulty is new.faulty and all(
+        getattr(old, name) is value
+        for name, value in vars(new).items()
+        if name not in unseen and name != "message"
+    )

@@ -9,13 +9,14 @@ from typing import Any
 from PySide6.QtCore import QObject, Signal
 
 from crossview.gui.solving import Solving
-from crossview.gui.state import Faulty, MessageAction
+from crossview.gui.state import Faulty, Message, MessageAction
 from crossview.gui.store import Store
 from crossview.gui.trials import Trials
 from crossview.scene import Elements
 from crossview.session.commands import (
     AddSingularities,
     ChangeValence,
+    ChooseMethod,
     Command,
     LockSingularity,
     RemoveSingularities,
@@ -24,6 +25,7 @@ from crossview.session.commands import (
 from crossview.session.document import Document
 from crossview.session.history import History
 from crossview.session.mending import Mending
+from crossview.session.moving import move_to_validity, place_natural
 from crossview.session.opening import open_target, read_triangles
 from solvers.errors import SurfaceError
 from solvers.points import SurfacePoint
@@ -127,10 +129,55 @@ class Workspace(Store):
         """Carry out an offer of the validity panel."""
         self.solving.run(mending.make, self.do, lambda error: self.fail(error, "edit"))
 
+    def choose_method(self, method: str) -> None:
+        """Solve by another method; the last result of each is kept."""
+        document = self.state.document
+        if document is not None and document.problem.method != method:
+            self.do(ChooseMethod(method))
+
+    def make_valid(self) -> None:
+        """Move the unlocked singularities to where the holonomy defects vanish."""
+        state = self.state
+        if state.document is None:
+            return
+
+        def failed(error: Exception) -> None:
+            self.solving.restore()
+            solve = MessageAction("Solve anisotropic", partial(self.choose_method, "anisotropic"))
+            self.fail(error, "edit", (solve,))
+
+        self.clear_message("edit")
+        job = partial(move_to_validity, state.document, state.base)
+        self.solving.run(job, self.do, failed, self._restore)
+
+    def place_natural(self, method: str) -> None:
+        """Replace the singularities by those of a smooth cross-field."""
+        document = self.state.document
+        if document is None:
+            return
+
+        def failed(error: Exception) -> None:
+            self.solving.restore()
+            self.fail(error, "edit")
+
+        job = partial(place_natural, document, method)
+        self.solving.run(job, self.do, failed, self._restore)
+
+    def compare(self) -> None:
+        """Show the error density of the start, or of the result again, on the same range."""
+        comparing = not self.state.comparing
+        layers = self.state.with_layer("error", visible=True).layers
+        self.set(comparing=comparing, layers=layers)
+
     def set_layer(self, name: str, **changes: Any) -> None:
         """Change settings of one layer."""
         self.set(layers=self.state.with_layer(name, **changes).layers)
         self.solving.cut_if_wanted()
+
+    def _restore(self) -> None:
+        """Show the document as it was after a job that was stopped."""
+        self.solving.restore()
+        self.set(message=Message("Stopped; nothing was changed", "edit", "info"))
 
     def _locate(self, target: str, error: SurfaceError) -> None:
         """Show what could not be opened, the offending elements pointed out."""
@@ -169,10 +216,10 @@ class Workspace(Store):
             changes["selected"] = None
         before = None if state.document is None else state.document.surface
         if document is None or document.surface is not before:
-            gone = ("base", "solution", "field", "cut_graph", "selected", "condition")
+            gone = ("base", "solution", "field", "start", "cut_graph", "selected", "condition")
             changes |= dict.fromkeys(gone)
         elif not document.budget.satisfied:
-            changes |= {"solution": None, "field": None, "cut_graph": None}
+            changes |= {"solution": None, "field": None, "start": None, "cut_graph": None}
         self.clear_message("edit")
         self.set(**changes)
         self.solving.follow()

@@ -77,8 +77,7 @@ def scalar_limits(view: SceneView, name: str, triangles: Triangles, values: Floa
     if given is not None:
         return given
     if name == "error":
-        top = max(float(np.ceil(_bulk(values, triangles.areas))), _ROUNDING)
-        return (top - _DECADES, top)
+        return _decades(values, triangles.areas)
     if name == "aspect":
         return (0.0, _rounded_up(max(_bulk(values, triangles.areas), _LEAST_LIMIT)))
     if name == "H":
@@ -87,6 +86,11 @@ def scalar_limits(view: SceneView, name: str, triangles: Triangles, values: Floa
     sizes = [scalar_values(view, each, triangles) for each in ("H1", "H2")]
     both = np.concatenate([each for each in sizes if each is not None])
     return symmetric_range(both, np.tile(triangles.areas, 2))
+
+
+def density_limits(density: FloatArray, areas: FloatArray) -> Limits:
+    """Return the limits, powers of 10, that the colours of an error density are fitted to."""
+    return _decades(np.log10(np.maximum(density, 1e-300)), areas)
 
 
 def symmetric_range(values: FloatArray, weights: FloatArray) -> Limits:
@@ -118,6 +122,11 @@ def bar_texts(name: str, limits: Limits) -> list[str]:
     digits = max(0, 1 - int(np.floor(np.log10(step)))) if step > 0.0 else 1
     texts = [f"{value:.{digits}f}" for value in values]
     return [text.replace("-", "−") if float(text) else "0" for text in texts]
+
+
+def _decades(logarithms: FloatArray, areas: FloatArray) -> Limits:
+    top = max(float(np.ceil(_bulk(logarithms, areas))), _ROUNDING)
+    return (top - _DECADES, top)
 
 
 def _bulk(values: FloatArray, weights: FloatArray) -> float:

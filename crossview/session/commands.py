@@ -9,6 +9,14 @@ from crossview.session.document import Document
 from solvers.points import SurfacePoint
 from solvers.singularities import Singularity
 
+METHOD_LABELS = {
+    "isotropic": "Isotropic",
+    "aligned": "Theta imposed",
+    "anisotropic": "Anisotropic",
+    "alternating": "Alternating (paper)",
+}
+"""What the methods are called, in the order of menus."""
+
 MIN_VALENCE = 1
 MAX_VALENCE = 12
 
@@ -110,6 +118,41 @@ class RemoveSingularities:
         """Return the document without them."""
         kept = (s for i, s in enumerate(document.singularities) if i not in self.indices)
         return document.with_singularities(tuple(kept))
+
+
+@dataclass(frozen=True)
+class ReplaceSingularities:
+    """Put other singularities in place of all there are.
+
+    Parameters
+    ----------
+    singularities : tuple of Singularity
+    name : str
+        Name of the step.
+    """
+
+    singularities: tuple[Singularity, ...]
+    name: str
+
+    def apply(self, document: Document) -> Document:
+        """Return the document with these singularities and no others."""
+        return document.with_singularities(self.singularities)
+
+
+@dataclass(frozen=True)
+class ChooseMethod:
+    """Solve by another method."""
+
+    method: str
+
+    @property
+    def name(self) -> str:
+        """Name of the step."""
+        return f"choose method {METHOD_LABELS[self.method].lower()}"
+
+    def apply(self, document: Document) -> Document:
+        """Return the document with the method chosen."""
+        return replace(document, problem=replace(document.problem, method=self.method))
 
 
 def next_valence(valence: int, step: int) -> int:

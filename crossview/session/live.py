@@ -14,9 +14,10 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from crossview.pipeline import Pipeline, Solution
+from crossview.pipeline import Solution
 from crossview.problem import Problem
 from crossview.session.document import Document
+from crossview.solution import Stage
 from solvers.crossfield import CrossField
 from solvers.isotropic import IsotropicSolver
 from solvers.points import SurfacePoint
@@ -53,6 +54,13 @@ class LiveBase:
         known = {s.point: at.point for s, at in zip(given, placed, strict=True)}
         problem = solution.problem
         return cls(problem.surface, solution.solver, solution.refinement.lift, known)
+
+    @classmethod
+    def from_stage(cls, stage: Stage, problem: Problem) -> LiveBase:
+        """Keep the factor that `problem`, not isotropic, is being solved with."""
+        given, placed = problem.singularities, stage.placed(problem)
+        known = {s.point: at.point for s, at in zip(given, placed, strict=True)}
+        return cls(problem.surface, stage.solver(flips=False), stage.refinement.lift, known)
 
     @property
     def surface(self) -> TriSurface:
@@ -117,13 +125,6 @@ class LiveEdit:
         """Return the field of this moment; never yields, so that it is never cut short."""
         yield from ()
         return with_directions(self.base.solver.solve(self.singularities))
-
-
-def solve(pipeline: Pipeline, problem: Problem) -> Generator[Progress, None, Solution]:
-    """Solve with refinement, all that is drawn included."""
-    solution = yield from pipeline.solve(problem)
-    with_directions(solution.field)
-    return solution
 
 
 def with_directions(field: CrossField) -> CrossField:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from crossview.gui.panels.convergence import ConvergencePanel
 from crossview.gui.panels.export import ExportPanel
 from crossview.gui.panels.layers import LayersPanel
 from crossview.gui.panels.singularities import SingularitiesPanel
@@ -9,6 +10,7 @@ from crossview.gui.panels.surface import SurfacePanel
 from crossview.gui.panels.validity import ValidityPanel
 
 __all__ = [
+    "ConvergencePanel",
     "ExportPanel",
     "LayersPanel",
     "SingularitiesPanel",

@@ -23,6 +23,7 @@ class EnergyPlot(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.energies: tuple[float, ...] = ()
+        self.empty_text = "No iterations yet"
         self.setMinimumHeight(96)
         self.setAccessibleName("E by iteration")
 
@@ -51,7 +52,8 @@ class EnergyPlot(QWidget):
             faint.setAlphaF(0.55)
             if not self.energies:
                 painter.setPen(faint)
-                painter.drawText(self.rect(), Qt.AlignmentFlag.AlignCenter, "No iterations yet")
+                place = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
+                painter.drawText(self.rect(), place, self.empty_text)
                 return
             logs = [math.log10(max(energy, FLOOR)) for energy in self.energies]
             low, high = _decades(logs)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 GOOD = "#2f9e5b"
 BAD = "#d93a3a"
+UNSURE = "#e0a01b"
 WAITING = "#a9adb5"
 THIN_SPACE = "\u2009"
 MINUS = "\u2212"
@@ -43,6 +45,27 @@ def position(coordinates: Sequence[float]) -> str:
     largest = max((abs(x) for x in coordinates), default=0.0)
     digits = 2 if largest < 100.0 and largest >= 0.1 else 0 if largest >= 100.0 else 4
     return ", ".join(signed(x, digits).lstrip("+") for x in coordinates)
+
+
+def energy(value: float) -> str:
+    """Return an integrability error with two digits, as "1.7" or "5.1e−04"."""
+    text = f"{value:.2g}" if 0.01 <= value < 100.0 else f"{value:.1e}"
+    return text.replace("-", MINUS)
+
+
+def energies(values: Sequence[float]) -> str:
+    """Return how E went: "E 1.7 → 1.8e−14 in 9 steps"."""
+    if len(values) == 1:
+        return f"E = {energy(values[0])}"
+    return f"E {energy(values[0])} → {energy(values[-1])} in {count(len(values) - 1, 'step')}"
+
+
+def aspect(log_aspect: float) -> str:
+    """Return how stretched the most stretched quads are."""
+    ratio = math.exp(log_aspect)
+    if ratio < 1.01:
+        return "All quads are square."
+    return f"Quads are up to {ratio:.{0 if ratio >= 9.95 else 1}f} times longer than wide."
 
 
 def hover(H: float | None, triangle: int) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from PySide6.QtCore import QEvent, QSize, Qt, Signal
-from PySide6.QtGui import QEnterEvent
+from PySide6.QtGui import QAction, QEnterEvent
 from PySide6.QtWidgets import (
     QFrame,
     QHBoxLayout,
@@ -69,9 +69,12 @@ class Verdict(QFrame):
 class ValidityPanel(QWidget):
     """Says whether the configuration is valid, by how much not, and what would mend it."""
 
-    def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
+    def __init__(
+        self, workspace: Workspace, make_valid: QAction, parent: QWidget | None = None
+    ) -> None:
         super().__init__(parent)
         self._workspace = workspace
+        self.make_valid = _button(make_valid)
         self.budget = Verdict()
         font = self.budget.text.font()
         font.setBold(True)
@@ -109,11 +112,15 @@ class ValidityPanel(QWidget):
         layout.addWidget(self.note)
         layout.addLayout(self._offers)
         layout.addWidget(scroll, 1)
+        bottom = QHBoxLayout()
+        bottom.setContentsMargins(30, 4, 8, 4)
+        bottom.addWidget(self.make_valid)
+        layout.addLayout(bottom)
         self.show_state(None, workspace.state)
 
     def show_state(self, old: WindowState | None, new: WindowState) -> None:
         """Follow the window's state."""
-        seen = ("document", "trial", "field", "base")
+        seen = ("document", "trial", "field", "base", "solution", "moving")
         if old is not None and all(getattr(old, name) is getattr(new, name) for name in seen):
             return
         self._show_budget(new)
@@ -169,7 +176,10 @@ class ValidityPanel(QWidget):
                 continue
             defect = float(np.degrees(defects[i]))
             good = abs(defect) < state.tolerance
-            row.show_verdict(GOOD if good else BAD, label, degrees(defect))
+            bridged = not good and state.method != "isotropic"
+            row.show_verdict(GOOD if good else WAITING if bridged else BAD, label, degrees(defect))
+            if bridged:
+                row.text.setToolTip(f"{label}: not closed by itself, the method bridges it")
 
     def _make_rows(self, count: int) -> None:
         while len(self.rows) > count:
@@ -185,3 +195,13 @@ class ValidityPanel(QWidget):
             )
             self._row_layout.insertWidget(number, row)
             self.rows.append(row)
+
+
+def _button(action: QAction) -> QPushButton:
+    """Return a push button that follows an action."""
+    button = QPushButton(action.text())
+    button.setToolTip(action.toolTip())
+    button.setEnabled(action.isEnabled())
+    button.clicked.connect(action.trigger)
+    action.enabledChanged.connect(button.setEnabled)
+    return button

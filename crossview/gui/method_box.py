@@ -1,0 +1,31 @@
+"""The toolbar's choice of method."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QComboBox
+
+from crossview.case import METHODS
+from crossview.gui.state import WindowState
+from crossview.gui.workspace import Workspace
+from crossview.session.commands import METHOD_LABELS
+
+
+class MethodBox(QComboBox):
+    """Shows and chooses the method of the document."""
+
+    def __init__(self, workspace: Workspace) -> None:
+        super().__init__()
+        for method in METHODS:
+            self.addItem(METHOD_LABELS[method], method)
+        self.setToolTip("Method: how the field is made; keys 1, 2, 3 of the keypad")
+        self.setAccessibleName("Method")
+        self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
+        self.setEnabled(False)
+        self.activated.connect(lambda row: workspace.choose_method(METHODS[row]))
+
+    def show_state(self, old: WindowState, new: WindowState) -> None:
+        """Follow the window's state."""
+        if old.document is not new.document:
+            self.setCurrentIndex(METHODS.index(new.method))
+            self.setEnabled(new.document is not None)

@@ -1,0 +1,88 @@
+"""The Convergence panel: E by iteration, the verdict, and what the field is like."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QToolButton, QVBoxLayout, QWidget
+
+from crossview.gui.icons import dot_icon
+from crossview.gui.panels.energy_plot import EnergyPlot
+from crossview.gui.panels.texts import BAD, GOOD, UNSURE, WAITING, aspect, energies
+from crossview.gui.panels.validity import DOT
+from crossview.gui.state import WindowState
+from crossview.pipeline import Solution
+
+COLORS = {"valid": GOOD, "suspect": UNSURE, "impossible": BAD}
+STOPPED = "Not converged: this is the last iterate before it was stopped."
+NO_ITERATIONS = {
+    "isotropic": "Isotropic: solved at once, no iterations",
+    "aligned": "Theta imposed: solved at once, no iterations",
+}
+
+
+class ConvergencePanel(QWidget):
+    """Follows a solve as it runs and says how it ended."""
+
+    def __init__(self, compare: QAction, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.plot = EnergyPlot()
+        self._dot = QLabel()
+        self.verdict, self.facts = QLabel(), QLabel()
+        for label in (self.verdict, self.facts):
+            label.setWordWrap(True)
+            label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.facts.setForegroundRole(self.palette().ColorRole.PlaceholderText)
+        self.button = QToolButton()
+        self.button.setDefaultAction(compare)
+        self._color = ""
+        said = QHBoxLayout()
+        said.setSpacing(8)
+        said.addWidget(self._dot, 0, Qt.AlignmentFlag.AlignTop)
+        said.addWidget(self.verdict, 1)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(10, 4, 10, 8)
+        layout.setSpacing(6)
+        layout.addLayout(said)
+        layout.addWidget(self.facts)
+        layout.addWidget(self.plot, 1)
+        layout.addWidget(self.button)
+        self._say(WAITING, "Nothing is solved yet.", "")
+
+    def show_state(self, old: WindowState, new: WindowState) -> None:
+        """Follow the window's state."""
+        seen = ("document", "solution", "iterate", "progress")
+        if all(getattr(old, name) is getattr(new, name) for name in seen):
+            return
+        solution = new.solution
+        if new.iterate is not None:
+            so_far = new.iterate.step.energies
+            self.plot.show_energies(so_far)
+            self._say(WAITING, "Solving…", energies(so_far))
+        elif solution is not None and new.solved:
+            self._show_solution(solution)
+        else:
+            self.plot.show_energies(())
+            self.plot.empty_text = "No iterations yet"
+            waiting = "Solving…" if new.progress is not None else "Nothing is solved yet."
+            self._say(WAITING, waiting, "")
+
+    def _show_solution(self, solution: Solution) -> None:
+        field, verdict = solution.field, solution.verdict
+        iterated = solution.problem.method not in NO_ITERATIONS
+        so_far = field.convergence.energies if iterated else (field.energy,)
+        self.plot.empty_text = NO_ITERATIONS.get(solution.problem.method, "No iterations")
+        self.plot.show_energies(so_far if iterated else ())
+        said = verdict.reason if field.convergence.converged else f"{STOPPED} {verdict.reason}"
+        facts = [aspect(field.max_log_aspect)]
+        if solution.integrated is not None:
+            facts.insert(0, energies(so_far))
+        self._say(COLORS[verdict.status], said, "\n".join(facts))
+
+    def _say(self, color: str, verdict: str, facts: str) -> None:
+        if color != self._color:
+            self._color = color
+            self._dot.setPixmap(dot_icon(color).pixmap(DOT))
+        self.verdict.setText(verdict)
+        self.facts.setText(facts)
+        self.facts.setVisible(bool(facts))

@@ -1,0 +1,109 @@
+"""Solving by any method, with iterates that can be drawn as it goes."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Generator
+from dataclasses import dataclass
+
+from crossview.pipeline import Pipeline, Solution
+from crossview.problem import Problem
+from crossview.session.live import LiveBase, with_directions
+from solvers.aligned import AlignedField, IntegratedField
+from solvers.crossfield import CrossField
+from solvers.integrable import FieldStep
+from solvers.progress import Progress
+
+DRAWN_EVERY = 0.2
+"""Least time between two iterates that are drawn, seconds."""
+
+
+@dataclass(frozen=True, eq=False)
+class Iterate(Progress):
+    """An iteration of a method, perhaps with what is to be drawn.
+
+    Parameters
+    ----------
+    stage, fraction
+        As in `Progress`.
+    step : FieldStep
+        The iteration; nothing of its field has been computed if `field` is None.
+    base : LiveBase
+        What it is solved on.
+    start : CrossField
+        The field before the first iteration.
+    field : CrossField or None
+        The field now; None soon after another that is drawn.
+    """
+
+    step: FieldStep
+    base: LiveBase
+    start: CrossField
+    field: CrossField | None
+
+
+@dataclass(frozen=True, eq=False)
+class Solved:
+    """A solution and the field it started from.
+
+    Parameters
+    ----------
+    solution : Solution
+    start : CrossField or None
+        The boundary-aligned field; None for the isotropic method, which starts from nothing.
+    """
+
+    solution: Solution
+    start: CrossField | None
+
+
+class MethodSolver:
+    """A pipeline whose results are ready to be drawn: nothing is left to another thread."""
+
+    def __init__(self) -> None:
+        self._pipeline = Pipeline()
+        self._start: tuple[AlignedField, CrossField] | None = None
+
+    def solve(self, problem: Problem) -> Generator[Progress, None, Solved]:
+        """Solve with refinement by the problem's method; yields an `Iterate` per iteration."""
+        computation = self._pipeline.solve(problem)
+        base: LiveBase | None = None
+        drawn = -DRAWN_EVERY
+        while True:
+            try:
+                step = next(computation)
+            except StopIteration as end:
+                return self._ready(end.value)
+            if not isinstance(step, FieldStep):
+                yield step
+                continue
+            base = base or self._base(problem)
+            field = None
+            if time.monotonic() - drawn >= DRAWN_EVERY:
+                field = with_directions(step.so_far.field)
+                drawn = time.monotonic()
+            start = self._start_of(step.so_far.aligned)
+            yield Iterate(step.stage, step.fraction, step, base, start, field)
+
+    def keep(self, step: FieldStep) -> Generator[Progress, None, Solved]:
+        """Make what there is of a stopped `solve` its result, not converged."""
+        yield Progress("keeping the last iterate", 0.9)
+        return self._ready(self._pipeline.so_far(step))
+
+    def _ready(self, solution: Solution) -> Solved:
+        with_directions(solution.field)
+        if solution.integrated is None:
+            return Solved(solution, None)
+        return Solved(solution, self._start_of(solution.integrated.aligned))
+
+    def _start_of(self, aligned: AlignedField) -> CrossField:
+        if self._start is None or self._start[0] is not aligned:
+            start = IntegratedField(aligned, aligned.start).field
+            self._start = (aligned, with_directions(start))
+        return self._start[1]
+
+    def _base(self, problem: Problem) -> LiveBase:
+        stage = self._pipeline.stage
+        if stage is None:
+            raise RuntimeError("a field was shown before there was a surface")
+        return LiveBase.from_stage(stage, problem)

@@ -1,0 +1,107 @@
+"""Jobs that place singularities anew: towards validity, or where they appear by themselves."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Generator
+from dataclasses import dataclass, replace
+from typing import TypeVar
+
+from crossview.session.commands import Command, ReplaceSingularities
+from crossview.session.document import Document
+from crossview.session.live import LiveBase, with_directions
+from solvers.crossfield import CrossField
+from solvers.errors import CrossviewError
+from solvers.natural import natural_singularities
+from solvers.progress import Progress
+from solvers.singularities import Singularity
+from solvers.triangulation import FloatArray
+from solvers.validity import Moved, make_valid
+
+T = TypeVar("T")
+
+TOLD_EVERY = 0.05
+"""Least time between two reports of a computation with many short steps, seconds."""
+
+NATURAL_LABELS = {
+    "mbo": "MBO",
+    "ginzburg-landau": "Ginzburg-Landau",
+    "globally-optimal": "Globally optimal",
+}
+"""What the ways to natural singularities are called."""
+
+
+@dataclass(frozen=True, eq=False)
+class Moving(Progress):
+    """A step of the singularities' way, ready to be drawn.
+
+    Parameters
+    ----------
+    stage, fraction
+        As in `Progress`.
+    singularities : tuple of Singularity
+        Where they are, on the document's surface.
+    defects : (c,) float array
+        Their holonomy defects, radians.
+    field : CrossField or None
+        Theirs, on the kept factor; None where there is none.
+    """
+
+    singularities: tuple[Singularity, ...]
+    defects: FloatArray
+    field: CrossField | None
+
+
+def move_to_validity(
+    document: Document, base: LiveBase | None
+) -> Generator[Progress, None, Command]:
+    """Move the unlocked singularities until the document is valid; yields each `Moving`.
+
+    Raises
+    ------
+    SingularityError
+        As `solvers.validity.make_valid`.
+    """
+    problem = document.problem
+    computation = make_valid(
+        document.surface, document.singularities, problem.corners, problem.options.refine
+    )
+    while True:
+        try:
+            step = next(computation)
+        except StopIteration as end:
+            moved: Moved = end.value
+            return ReplaceSingularities(moved.singularities, "make valid")
+        if isinstance(step, Moved):
+            field = _field(base, step.singularities)
+            step = Moving(step.stage, step.fraction, step.singularities, step.defects, field)
+        yield step
+
+
+def place_natural(document: Document, method: str) -> Generator[Progress, None, Command]:
+    """Find the singularities of a smooth cross-field in place of the document's."""
+    found = yield from _paced(natural_singularities(document.surface, method))
+    return ReplaceSingularities(found, f"natural singularities ({NATURAL_LABELS[method]})")
+
+
+def _field(base: LiveBase | None, singularities: tuple[Singularity, ...]) -> CrossField | None:
+    if base is None:
+        return None
+    placed = tuple(replace(s, point=base.locate(s.point)) for s in singularities)
+    try:
+        return with_directions(base.solver.solve(placed))
+    except CrossviewError:  # on their way they may be where this surface has no field
+        return None
+
+
+def _paced(computation: Generator[Progress, None, T]) -> Generator[Progress, None, T]:
+    told = -TOLD_EVERY
+    while True:
+        try:
+            step = next(computation)
+        except StopIteration as end:
+            result: T = end.value
+            return result
+        if time.monotonic() - told >= TOLD_EVERY:
+            told = time.monotonic()
+            yield step
