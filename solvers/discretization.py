@@ -233,14 +233,26 @@ class Discretization:
     ) -> float:
         """Return the largest failure to close over all inner edges.
 
-        Edges on handle loops are expected to close up to the defects of those loops.
+        Edges on handle loops are expected to close up to the defects of those loops. Those the
+        walk has crossed close by its construction; the others are measured.
         """
-        t = self.triangulation
-        h = t.edge_halfedges[t.twin[t.edge_halfedges] >= 0]
-        error = self.closing(theta, offsets, h)
+        offset = offsets.reshape(-1)
+        h, g, left, right, apart = self._uncrossed
+        error = theta[left] - theta[right] + (offset[h] - offset[g] + apart)
         if len(self.chain):
-            error = wrap(error - defects[: len(self.chain)] @ self.chain[:, h], QUARTER)
-        return float(np.abs(error).max(initial=0.0))
+            error -= defects[: len(self.chain)] @ self.chain[:, h]
+        return float(np.abs(wrap(error, QUARTER)).max(initial=0.0))
+
+    @cached_property
+    def _uncrossed(self) -> tuple[IntArray, IntArray, IntArray, IntArray, FloatArray]:
+        """Inner edges off the walk: both halfedges, both triangles, and the transport."""
+        t = self.triangulation
+        off = t.twin >= 0
+        crossed = self.tree.crossing[1:]
+        off[crossed] = off[t.twin[crossed]] = False
+        h = t.edge_halfedges[off[t.edge_halfedges]]
+        g = t.twin[h]
+        return h, g, h // 3, g // 3, t.transport[h]
 
     def boundary_misalignment(self, theta: FloatArray, offsets: FloatArray) -> FloatArray:
         """Return the largest angle, with its sign, between crosses and each boundary loop."""

@@ -105,8 +105,8 @@ class IsotropicSolver:
             boundary_misalignment=d.boundary_misalignment(theta, offsets),
             residual=residual,
             max_closing_error=d.max_closing_error(theta, offsets, defects),
-            half_log_aspect=np.zeros((self.surface.n_faces, 3)),
-            error_density=np.zeros(self.surface.n_faces),
+            half_log_aspect=np.broadcast_to(0.0, (self.surface.n_faces, 3)),
+            error_density=np.broadcast_to(0.0, self.surface.n_faces),
             convergence=Convergence(),
         )
 
