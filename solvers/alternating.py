@@ -60,16 +60,14 @@ def _descend(
     """Iterate while E falls; the last, which does not fall, is not taken."""
     step.prepare(x)
     for _ in range(limit):
-        trial = step(x)
+        trial, before = step(x), history[-1]
         energy = step.integrability.residual(trial).energy
-        if energy >= history[-1] * (1 - LEAST_GAIN):
-            if energy < history[-1]:
-                history.append(energy)
-                x = trial
+        if energy < before:
+            history.append(energy)
+            x = trial
+            yield NewtonStep("alternating", min(1.0, len(history) / 100), energy, x)
+        if energy >= before * (1 - LEAST_GAIN):
             break
-        history.append(energy)
-        x = trial
-        yield NewtonStep("alternating", min(1.0, len(history) / 100), energy, x)
     return x
 
 

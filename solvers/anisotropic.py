@@ -29,6 +29,9 @@ TURN_LIMIT = 0.5
 CONVERGED = 1e-11
 """E below which nothing but rounding is left."""
 
+LEAST_GAIN = 1e-2
+"""Fall of the roughness, relative, below which sliding ends."""
+
 SMOOTH_SCALES, SMOOTH_TURNS = 1e-2, 1e-3
 
 
@@ -132,20 +135,23 @@ class MinimumNormNewton:
         assembly = self.integrability.assembly
         metric = assembly.packed(roughness(self.integrability)) + 1e-6 * self._metric
         rough = self._roughness_of(x, target)
+        r = self.integrability.residual(x)
+        history = [r.energy]
         for count in range(limit):
-            r = self.integrability.residual(x)
             factor = self._factor(metric, r)
             downhill = -self._roughness_gradient(x, target)
             direction = self._constrained(factor, r, r.values, downhill)
-            trial = self._smoother(factor, r, x, direction, target, rough)
-            if trial is None:
+            smoother = self._smoother(factor, r, x, direction, target, rough)
+            if smoother is None:
                 break
-            gain, x = 1 - self._roughness_of(trial, target) / rough, trial
-            rough *= 1 - gain
+            x, r = smoother
+            before, rough = rough, self._roughness_of(x, target)
+            history.append(r.energy)
             yield NewtonStep("smoothing the sizes", (count + 1) / limit, r.energy, x)
-            if gain < 1e-2:
+            if rough > (1 - LEAST_GAIN) * before:
                 break
-        return (yield from self.solve(x))
+        end = yield from self.solve(x)
+        return Iterate(end.x, (*history[:-1], *end.history), end.converged)
 
     def _factor(self, metric: FloatArray, r: Residual) -> Factorization:
         assembly = self.integrability.assembly
@@ -192,18 +198,18 @@ class MinimumNormNewton:
         direction: FloatArray,
         target: FloatArray,
         rough: float,
-    ) -> FloatArray | None:
+    ) -> tuple[FloatArray, Residual] | None:
         """Return a point along the direction, brought back to E = 0, that is smoother."""
         for length in (1.0, 0.5, 0.25, 0.125):
             trial = x + length * direction
+            off = self.integrability.residual(trial)
             for _ in range(4):  # the factor still serves to correct: chord steps
-                off = self.integrability.residual(trial)
                 if off.energy < 1e-7:
                     break
                 trial = trial + self._constrained(factor, r, off.values, None)
-            close = self.integrability.residual(trial).energy < 1e-3
-            if close and self._roughness_of(trial, target) < rough:
-                return trial
+                off = self.integrability.residual(trial)
+            if off.energy < 1e-3 and self._roughness_of(trial, target) < rough:
+                return trial, off
         return None
 
     def _differences(self, x: FloatArray, target: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -70,16 +70,16 @@ def anisotropic_field(
     target = np.zeros((aligned.isotropic.surface.n_faces, 2, 3))
     if sizes is not None:
         target = _log_targets(aligned.isotropic, sizes)
-    integrated = yield from _shown(aligned, "anisotropic", _newton(aligned))
+    newton = MinimumNormNewton(aligned.integrability)
+    integrated = yield from _shown(aligned, "anisotropic", _solve(aligned, newton))
     if (
         smooth
         and integrated.converged
         and (sizes is not None or integrated.history[0] > LEFT_ALONE)
     ):
-        newton = MinimumNormNewton(aligned.integrability)
         smoothing = newton.slide(integrated.x, target)
         smoothed = yield from _shown(aligned, "anisotropic", smoothing, integrated.history)
-        integrated = replace(smoothed, history=integrated.history + smoothed.history)
+        integrated = replace(smoothed, history=integrated.history + smoothed.history[1:])
     convergence = Convergence(integrated.history, integrated.converged)
     return IntegratedField(aligned, integrated.x, "anisotropic", convergence)
 
@@ -101,9 +101,9 @@ def alternating_field(
     return IntegratedField(aligned, end.x, "alternating", convergence)
 
 
-def _newton(aligned: AlignedField) -> Iteration:
+def _solve(aligned: AlignedField, newton: MinimumNormNewton) -> Iteration:
     """Newton from the aligned field; if it stalls, from the isotropic one by stages."""
-    direct = yield from MinimumNormNewton(aligned.integrability).solve(aligned.start)
+    direct = yield from newton.solve(aligned.start)
     if direct.converged:
         return direct
     for stages in HOMOTOPY_STAGES:
@@ -111,7 +111,7 @@ def _newton(aligned: AlignedField) -> Iteration:
         for stage in range(1, stages):
             partly = MinimumNormNewton(aligned.partly(stage / stages))
             x = (yield from partly.solve(x)).x
-        last = yield from MinimumNormNewton(aligned.integrability).solve(x)
+        last = yield from newton.solve(x)
         if last.converged:
             return Iterate(last.x, direct.history + last.history, True)
     return direct

@@ -214,6 +214,17 @@ def test_the_papers_alternation_falls_steadily_and_stalls_far_from_validity() ->
     assert history[-1] < 0.1 * history[0]
 
 
+def test_the_history_is_what_the_steps_have_shown() -> None:
+    start = aligned(SURFACES["annulus"](), random_configuration(SURFACES["annulus"](), seed=4))
+    for solver in (anisotropic_field(start), alternating_field(start)):
+        steps: list[FieldStep] = []
+        end = run(solver, lambda step, steps=steps: steps.append(step))
+        history = end.field.convergence.energies
+        assert steps[-1].energies == history[: len(steps[-1].energies)]
+        assert history[-1] == pytest.approx(end.field.energy, abs=1e-12)
+        assert len(history) <= len(steps) + 2
+
+
 def test_each_step_can_be_shown_as_a_field() -> None:
     surface = SURFACES["annulus"]()
     start = aligned(surface, random_configuration(surface, seed=4))
@@ -224,6 +235,7 @@ def test_each_step_can_be_shown_as_a_field() -> None:
         shown.append(next(s for s in steps if isinstance(s, FieldStep)))
     for step in shown:
         field = step.so_far.field
+        assert step.energies[0] == pytest.approx(IntegratedField(start, start.start).field.energy)
         assert field.energy == pytest.approx(step.energies[-1], rel=1e-6)
         assert not field.convergence.converged
 
