@@ -17,11 +17,11 @@ from crossview.sizes import read_sizes, refined_sizes
 from crossview.solution import Solution, Stage
 from solvers.aligned import IntegratedField
 from solvers.crossfield import CrossField
-from solvers.errors import CrossviewError, SingularityError
+from solvers.errors import CrossviewError
 from solvers.integrable import FieldStep
 from solvers.progress import Progress
 from solvers.refinement import refine_at
-from solvers.singularities import index_budget
+from solvers.singularities import require_budget
 from solvers.triangulation import FloatArray
 
 __all__ = ["Pipeline", "Solution", "solve_case"]
@@ -51,7 +51,7 @@ class Pipeline:
             The index budget is missed, a singularity is on the boundary, two coincide, the turns
             are too many or too few, or the size map is wrong.
         """
-        _require_budget(problem)
+        require_budget(problem.surface, problem.singularities, problem.chosen_corners)
         wanted = problem.options.sizes if problem.method == "anisotropic" else None
         sizes = None if wanted is None else read_sizes(wanted, problem.surface.n_vertices)
         kept = self._kept_by(problem, sizes)
@@ -187,16 +187,6 @@ def _solution(
         verdict,
         growth,
     )
-
-
-def _require_budget(problem: Problem) -> None:
-    """Refuse a missed index budget before anything is computed."""
-    budget = index_budget(problem.surface, problem.singularities, problem.chosen_corners)
-    if not budget.satisfied:
-        raise SingularityError(
-            f"the singularities miss the index budget, {budget.index_sum} of {budget.required}",
-            remedy=" or ".join(budget.remedies),
-        )
 
 
 def _between(
