@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QDockWidget, QLabel, QWidget
+from PySide6.QtWidgets import QDockWidget, QLabel, QTabWidget, QWidget
 
 if TYPE_CHECKING:
     from crossview.gui.main_window import MainWindow
@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 LEFT, RIGHT = Qt.DockWidgetArea.LeftDockWidgetArea, Qt.DockWidgetArea.RightDockWidgetArea
 LEFT_WIDTH, RIGHT_WIDTH = 316, 232
 LEFT_LEAST, RIGHT_LEAST = 272, 208
+TABS = ("Convergence", "Export")
+"""Docks that share one place, the first in front."""
 
 
 def add_docks(window: MainWindow) -> dict[str, QDockWidget]:
@@ -33,9 +35,12 @@ def add_docks(window: MainWindow) -> dict[str, QDockWidget]:
         panel.setBackgroundRole(panel.palette().ColorRole.Base)
         panel.setMinimumWidth(LEFT_LEAST if area == LEFT else RIGHT_LEAST)
         dock.setWidget(panel)
-        dock.setTitleBarWidget(_title_bar(title))
+        dock.setTitleBarWidget(QWidget() if title in TABS else _title_bar(title))
         window.addDockWidget(area, dock)
         docks[title] = dock
+    window.setTabPosition(RIGHT, QTabWidget.TabPosition.North)
+    window.tabifyDockWidget(*(docks[title] for title in TABS))
+    docks[TABS[0]].raise_()
     return docks
 
 
@@ -47,7 +52,7 @@ def size_docks(window: MainWindow) -> None:
     )
     for column, shares in (
         (("Surface", "Singularities", "Validity"), (0.24, 0.42, 0.34)),
-        (("Layers", "Convergence", "Export"), (0.4, 0.36, 0.24)),
+        (("Layers", "Convergence"), (0.58, 0.42)),
     ):
         window.resizeDocks(
             [docks[title] for title in column],

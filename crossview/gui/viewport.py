@@ -243,7 +243,7 @@ class Viewport(QWidget):
 
 def _same_picture(old: WindowState, new: WindowState) -> bool:
     """Whether only what the scene does not show differs."""
-    unseen = {"progress", "undo_name", "redo_name"}
+    unseen = {"progress", "iterate", "undo_name", "redo_name"}
     return old.faulty is new.faulty and all(
         getattr(old, name) is value
         for name, value in vars(new).items()

@@ -64,8 +64,9 @@ class ConvergencePanel(QWidget):
         else:
             self.plot.show_energies(())
             self.plot.empty_text = "No iterations yet"
-            waiting = "Solving…" if new.progress is not None else "Nothing is solved yet."
-            self._say(WAITING, waiting, "")
+            awaited = new.document is not None and new.document.budget.satisfied
+            solving = awaited and new.progress is not None
+            self._say(WAITING, "Solving…" if solving else "Nothing is solved yet.", "")
 
     def _show_solution(self, solution: Solution) -> None:
         field, verdict = solution.field, solution.verdict

@@ -1,0 +1,230 @@
+"""Where no isotropic field is aligned: other methods, watched and compared, or moving."""
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QPushButton
+
+from crossview.gui.panels.texts import BAD, GOOD, WAITING
+from crossview.gui.state import WindowState
+from crossview.scene.colors import valence_color
+from tests.windowing import Hand
+
+KEYPAD = Qt.KeyboardModifier.KeypadModifier
+
+
+def choose(hand: Hand, label: str) -> None:
+    """Choose a method in the toolbar and wait for its field."""
+    box = hand.window.method_box
+    row = box.findText(label)
+    box.setCurrentIndex(row)
+    box.activated.emit(row)
+    hand.wait(lambda: hand.state.solved)
+
+
+def test_anisotropic_where_isotropic_fails_and_back(hand: Hand) -> None:
+    hand.open("annulus-far")
+    panel = hand.window.convergence_panel
+    assert "37 degrees" in panel.verdict.text()
+    assert hand.window.validity_panel.rows[0].color == BAD
+    isotropic = hand.state.field
+    camera, limits = hand.window.viewport.scene.camera, hand.window.viewport.scene.limits
+
+    # watch E fall: the field of several iterations is drawn before the last
+    texts, drawn = set(), []
+
+    def watch(old: WindowState, new: WindowState) -> None:
+        texts.add(hand.window.status.stage.text())
+        if new.iterate is not None and new.field is not old.field:
+            drawn.append((new.iterate.step.energies, new.field))
+
+    hand.window.workspace.changed.connect(watch)
+    choose(hand, "Anisotropic")
+    hand.window.workspace.changed.disconnect(watch)
+    assert len(drawn) >= 1
+    assert any(text.startswith("Newton 1  E = ") for text in texts)
+    assert all(field.surface is hand.state.shown_surface for _, field in drawn)
+    assert all(1e-10 < energies[-1] < energies[0] for energies, _ in drawn[:1])
+
+    # the verdict is said, E before and after and the aspect too
+    anisotropic = hand.state.field
+    assert anisotropic.energy < 1e-10
+    assert anisotropic.convergence.converged
+    assert panel.verdict.text().startswith("The field is aligned and integrable")
+    assert panel.facts.text().startswith("E 1.7 → ")
+    assert "times longer than wide" in panel.facts.text()
+    assert panel.plot.energies == anisotropic.convergence.energies
+    row = hand.window.validity_panel.rows[0]
+    assert (row.color, row.value.text()) == (WAITING, "−37.0°")
+
+    # one key for each method: the same results at once, camera and colours as they were
+    assert hand.window.viewport.scene.camera == camera
+    assert hand.window.viewport.scene.limits == limits
+    hand.key(Qt.Key.Key_1, KEYPAD)
+    hand.wait(lambda: hand.state.solved)
+    assert hand.state.field is isotropic
+    assert hand.window.method_box.currentText() == "Isotropic"
+    hand.key(Qt.Key.Key_3, KEYPAD)
+    hand.wait(lambda: hand.state.solved)
+    assert hand.state.field is anisotropic
+    assert hand.state.tool is None  # the keypad's 3 is not the 3 that adds
+    hand.key(Qt.Key.Key_2, KEYPAD)
+    hand.wait(lambda: hand.state.solved)
+    assert hand.state.field.method == "aligned"
+    assert np.abs(hand.state.field.boundary_misalignment).max() < 1e-9
+    assert "not integrable" in panel.verdict.text()
+    assert hand.window.viewport.scene.limits == limits
+
+    # the method is a step of the history like any other
+    assert hand.state.undo_name == "choose method theta imposed"
+    hand.trigger("undo")
+    hand.wait(lambda: hand.state.solved)
+    assert hand.state.field is anisotropic
+
+
+def test_the_error_density_before_and_after_on_one_range(hand: Hand) -> None:
+    hand.open("annulus-far")
+    actions = hand.window.actions_table.by_name
+    assert not actions["compare"].isEnabled()
+    choose(hand, "Anisotropic")
+    scene, panel = hand.window.viewport.scene, hand.window.convergence_panel
+    camera = scene.camera
+    panel.button.click()
+    before, limits = hand.picture(), scene.limits
+    assert actions["compare"].isChecked()
+    assert hand.state.layers["error"].visible
+    hand.key(Qt.Key.Key_C)
+    after = hand.picture()
+    assert scene.limits == limits
+    assert scene.camera == camera
+    assert not actions["compare"].isChecked()
+    assert np.abs(before.astype(int) - after.astype(int)).mean() > 5.0
+    assert after.mean() > before.mean()  # the error density is white where there is none
+
+
+def test_stop_keeps_the_last_iterate(hand: Hand) -> None:
+    hand.open("annulus-far")
+    stop = hand.window.actions_table.by_name["stop"]
+
+    def stop_soon(old: WindowState, new: WindowState) -> None:
+        if new.iterate is not None and len(new.iterate.step.energies) > 20:
+            hand.window.workspace.changed.disconnect(stop_soon)
+            stop.trigger()
+
+    hand.window.workspace.changed.connect(stop_soon)
+    choose(hand, "Alternating (paper)")
+    hand.wait(lambda: hand.state.message is not None)
+    assert "the last iterate is kept, not converged" in hand.state.message.text
+    field, panel = hand.state.field, hand.window.convergence_panel
+    assert field.method == "alternating"
+    assert not field.convergence.converged
+    energies = field.convergence.energies
+    assert len(energies) > 20
+    assert field.energy == pytest.approx(energies[-1])
+    assert energies[-1] < energies[0]
+    assert panel.verdict.text().startswith("Not converged")
+    assert panel.plot.energies == energies
+    # it goes with the next edit
+    choose(hand, "Isotropic")
+    assert hand.state.message is None
+
+
+def test_an_edit_is_solved_by_the_chosen_method_on_release(hand: Hand) -> None:
+    hand.open("annulus-near")
+    choose(hand, "Anisotropic")
+    solved = hand.state.field
+    start = hand.place_of(0)
+    end = hand.place((0.75, 0.15, 0.0))
+    hand.drag(start, end)
+    hand.wait(lambda: hand.state.field is not solved)
+    assert hand.state.field.method == "isotropic"
+    hand.release(end)
+    hand.wait(lambda: hand.state.solved)
+    assert hand.state.field.method == "anisotropic"
+    assert hand.state.field.energy < 1e-10
+    assert hand.shows(valence_color(3), end)
+
+
+def test_make_valid_and_undo(hand: Hand) -> None:
+    hand.open("annulus-near")
+    panel = hand.window.validity_panel
+    before = hand.state.document
+    assert panel.rows[0].color == BAD
+    assert panel.make_valid.isEnabled()
+    on_the_way = []
+    hand.window.workspace.changed.connect(
+        lambda old, new: (
+            on_the_way.append((new.singularities, panel.rows[0].value.text()))
+            if new.moving is not None
+            else None
+        )
+    )
+    panel.make_valid.click()
+    hand.wait(lambda: hand.state.solved and hand.state.document is not before)
+    assert len({text for _, text in on_the_way}) > 1
+    assert any(places != before.singularities for places, _ in on_the_way)
+    assert panel.rows[0].color == GOOD
+    assert not panel.make_valid.isEnabled()
+    assert np.abs(hand.state.solution.holonomy_defects).max() < np.radians(1e-3)
+    assert hand.window.convergence_panel.verdict.text().startswith("The field is aligned")
+    assert hand.state.undo_name == "make valid"
+    hand.trigger("undo")
+    hand.wait(lambda: hand.state.solved)
+    assert hand.state.document is before
+    assert panel.rows[0].color == BAD
+
+
+def test_what_cannot_be_made_valid_says_why_and_what_else(hand: Hand) -> None:
+    hand.open("annulus-near")
+    for i in range(8):
+        hand.window.workspace.toggle_lock(i)
+    hand.wait(lambda: hand.state.solved)
+    before, field = hand.state.document, hand.state.field
+    hand.window.validity_panel.make_valid.click()
+    hand.wait(lambda: hand.state.message is not None)
+    assert "too few singularities may move" in hand.state.message.text
+    assert "around the inner boundary, 3" in hand.state.message.text
+    assert hand.state.document is before
+    assert hand.state.field is field
+    bar = hand.window.centre.message_bar
+    next(b for b in bar.findChildren(QPushButton) if b.text() == "Solve anisotropic").click()
+    hand.wait(lambda: hand.state.solved and hand.state.method == "anisotropic")
+    assert hand.state.message is None
+    assert hand.state.field.energy < 1e-10
+
+
+@pytest.mark.parametrize("when", ["make-valid", "natural-mbo"])
+def test_stop_leaves_the_document_as_it_was(hand: Hand, when: str) -> None:
+    hand.open("annulus-far")
+    before, field = hand.state.document, hand.state.field
+    actions = hand.window.actions_table.by_name
+
+    def stop_at_once(old: WindowState, new: WindowState) -> None:
+        if new.progress is not None:
+            hand.window.workspace.changed.disconnect(stop_at_once)
+            actions["stop"].trigger()
+
+    hand.window.workspace.changed.connect(stop_at_once)
+    hand.trigger(when)
+    hand.wait(lambda: hand.state.message is not None)
+    assert hand.state.message.text == "Stopped; nothing was changed"
+    assert hand.state.document is before
+    assert hand.state.singularities == before.singularities
+    assert hand.state.field is field
+
+
+def test_natural_singularities_of_a_disk(hand: Hand) -> None:
+    hand.open("disk-4")
+    before = hand.state.document
+    hand.trigger("natural-globally-optimal")
+    hand.wait(lambda: hand.state.document is not before and hand.state.solved)
+    assert hand.state.undo_name == "natural singularities (Globally optimal)"
+    hand.trigger("natural-mbo")
+    hand.wait(lambda: hand.state.undo_name == "natural singularities (MBO)")
+    hand.wait(lambda: hand.state.solved)
+    assert [s.valence for s in hand.state.singularities] == [3, 3, 3, 3]
+    assert hand.state.budget.satisfied
+    hand.trigger("undo")
+    hand.trigger("undo")
+    hand.wait(lambda: hand.state.solved)
+    assert hand.state.document is before
