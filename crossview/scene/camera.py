@@ -162,7 +162,8 @@ def _frame(away: FloatArray, up: FloatArray) -> FloatArray:
 def _fit(points: FloatArray, away: FloatArray, up: FloatArray, room: Room) -> Camera:
     """Perspective: the nearest eye, and its place sideways, that see all within the room."""
     frame = _frame(away, up)
-    seen = points @ frame.T
+    origin = points.mean(axis=0)
+    seen = (points - origin) @ frame.T
     tan = np.tan(np.radians(_VIEW_ANGLE) / 2.0)
     # The free part as slopes from the eye: centre and half size, per direction.
     half = np.array([tan * room.width / room.height, tan])
@@ -178,8 +179,8 @@ def _fit(points: FloatArray, away: FloatArray, up: FloatArray, room: Room) -> Ca
     for _ in range(4):  # Also in the middle where there is room to spare.
         slopes = (seen[:, :2] - middle) / (distance - seen[:, 2:]) - centre
         middle += 0.5 * (slopes.max(axis=0) + slopes.min(axis=0)) * distance
-    eye = np.array([middle[0], middle[1], distance]) @ frame
-    target = np.array([middle[0], middle[1], float(seen[:, 2].mean())]) @ frame
+    eye = origin + np.array([middle[0], middle[1], distance]) @ frame
+    target = origin + np.array([middle[0], middle[1], 0.0]) @ frame
     return Camera(tuple(eye), tuple(target), tuple(frame[1]))
 
 

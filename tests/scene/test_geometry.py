@@ -8,6 +8,7 @@ from crossview.scene.field import cross_angle
 from crossview.scene.geometry import Triangles, dashes
 from solvers.errors import CrossviewError
 from solvers.primitives import annulus, blob, square, torus
+from solvers.surface import TriSurface
 
 
 def triangles(surface) -> Triangles:
@@ -97,6 +98,11 @@ class TestCamera:
     @pytest.mark.parametrize("preset", ["auto", "iso", "xy"])
     def test_so_does_a_plane(self, preset):
         self.check_fit(preset, annulus(n=48))
+
+    @pytest.mark.parametrize("preset", ["iso", "xy"])
+    def test_so_does_a_surface_far_from_the_origin(self, preset):
+        ball = blob(subdivisions=3)
+        self.check_fit(preset, TriSurface(ball.vertices + [3e3, -1e3, 2e3], ball.faces))
 
     def check_fit(self, preset, surface):
         seen = pixels(camera_for(preset, triangles(surface), ROOM), surface.vertices)
