@@ -132,14 +132,14 @@ def seen(view: SceneView, size: tuple[int, int], camera: str | Camera) -> Seen:
 
 def check_size(size: tuple[int, int], scale: float) -> tuple[int, int]:
     """Return the pixels of a picture, or raise if they are too few or too many to draw."""
-    width, height = (round(side * scale) for side in size)
-    if min(width, height) < _SHORTEST_SIDE or max(width, height) > _LONGEST_SIDE:
+    width, height = (side * scale for side in size)
+    if not (min(width, height) >= _SHORTEST_SIDE and max(width, height) <= _LONGEST_SIDE):
         raise FigureError(
-            f"cannot draw {width} x {height} pixels",
+            f"cannot draw {width:g} x {height:g} pixels",
             "size times scale",
             f"choose sides from {_SHORTEST_SIDE} to {_LONGEST_SIDE}",
         )
-    return width, height
+    return round(width), round(height)
 
 
 def pixel_ratio(size: tuple[int, int]) -> float:

@@ -10,6 +10,7 @@ from vtkmodules.vtkRenderingCore import vtkCamera
 
 from crossview.scene.geometry import FloatArray, Triangles
 from solvers.errors import CrossviewError
+from solvers.validation import LARGEST
 
 _VIEW_ANGLE = 24.0
 # A surface this flat lies on its flat side; others stand along y, as most model files do.
@@ -111,7 +112,7 @@ def read_camera(text: str) -> str | Camera:
         numbers = [float(part) for part in text.split(",")]
     except ValueError:
         numbers = []
-    if len(numbers) != 9 or not np.isfinite(numbers).all():
+    if len(numbers) != 9 or not (np.abs(numbers) < LARGEST).all():
         known = ", ".join(PRESETS)
         raise CrossviewError(
             f'no camera "{text}"', "camera", f"choose from {known}, or px,py,pz,fx,fy,fz,ux,uy,uz"
