@@ -125,7 +125,7 @@ def test_the_last_one_of_a_budget_shows_its_defects_before_it_is_placed(hand: Ha
     shown = hand.window.validity_panel.rows[0].value.text()
     hand.click(hand.place((0.75, 0.1, 0.0)))
     hand.wait(lambda: hand.state.solved)
-    np.testing.assert_allclose(hand.state.field.defects, predicted, atol=1e-3)
+    np.testing.assert_allclose(hand.state.solution.holonomy_defects, predicted, atol=1e-3)
     assert hand.window.validity_panel.rows[0].value.text() == shown
     assert hand.shows(BLUE, hand.place_of(7))
 
