@@ -101,7 +101,7 @@ def _loop(state: WindowState) -> IntArray | None:
 def _title(state: WindowState, document: Document) -> str:
     title = document.source.title or document.name
     shown = state.comparing and state.layers["error"].visible and _start(state) is not None
-    return f"{title} \u2013 error at the start" if shown else title
+    return f"Error at the start \u2013 {title}" if shown else title
 
 
 def _start(state: WindowState) -> CrossField | None:

@@ -7,6 +7,7 @@ from functools import partial
 from typing import Any, TypeVar
 
 from crossview.gui.background import Background
+from crossview.gui.panels.texts import energy
 from crossview.gui.state import Message
 from crossview.gui.store import Store
 from crossview.session.live import LiveBase, LiveEdit, cut, prepare
@@ -149,8 +150,8 @@ class Solving:
 
         def show(solved: Solved) -> None:
             self._show(solved)
-            energy = f"{solved.solution.field.energy:.1e}"
-            text = f"Stopped: the last iterate is kept, not converged (E = {energy})"
+            reached = energy(solved.solution.field.energy)
+            text = f"Stopped: the last iterate is kept, not converged (E = {reached})"
             self._store.set(message=Message(text, "solve", "info"))
 
         self.run(partial(self._solver.keep, iterate.step), show, self._failed)

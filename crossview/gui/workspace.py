@@ -144,7 +144,7 @@ class Workspace(Store):
         def failed(error: Exception) -> None:
             self.solving.restore()
             solve = MessageAction("Solve anisotropic", partial(self.choose_method, "anisotropic"))
-            self.fail(error, "edit", (solve,))
+            self.fail(error, "edit", () if self.state.method == "anisotropic" else (solve,))
 
         self.clear_message("edit")
         job = partial(move_to_validity, state.document, state.base)

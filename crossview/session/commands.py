@@ -129,13 +129,18 @@ class ReplaceSingularities:
     singularities : tuple of Singularity
     name : str
         Name of the step.
+    automatic_corners : bool
+        Whether the corners become those chosen from the boundary's angles.
     """
 
     singularities: tuple[Singularity, ...]
     name: str
+    automatic_corners: bool = False
 
     def apply(self, document: Document) -> Document:
         """Return the document with these singularities and no others."""
+        if self.automatic_corners:
+            document = document.with_automatic_corners()
         return document.with_singularities(self.singularities)
 
 

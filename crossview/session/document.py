@@ -61,3 +61,10 @@ class Document:
     def with_singularities(self, singularities: Sequence[Singularity]) -> Document:
         """Return the same document with other singularities."""
         return replace(self, problem=replace(self.problem, singularities=tuple(singularities)))
+
+    def with_automatic_corners(self) -> Document:
+        """Return the same document with corners chosen from the boundary's angles."""
+        if self.problem.corners is None:
+            return self
+        problem = replace(self.problem, corners=None)
+        return replace(self, problem=problem, corners=problem.chosen_corners)

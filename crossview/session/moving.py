@@ -79,9 +79,10 @@ def move_to_validity(
 
 
 def place_natural(document: Document, method: str) -> Generator[Progress, None, Command]:
-    """Find the singularities of a smooth cross-field in place of the document's."""
+    """Find the singularities of a smooth cross-field, with automatic corners as it has."""
     found = yield from _paced(natural_singularities(document.surface, method))
-    return ReplaceSingularities(found, f"natural singularities ({NATURAL_LABELS[method]})")
+    name = f"natural singularities ({NATURAL_LABELS[method]})"
+    return ReplaceSingularities(found, name, automatic_corners=True)
 
 
 def _field(base: LiveBase | None, singularities: tuple[Singularity, ...]) -> CrossField | None:

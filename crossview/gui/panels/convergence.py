@@ -35,7 +35,7 @@ class ConvergencePanel(QWidget):
         self.facts.setForegroundRole(self.palette().ColorRole.PlaceholderText)
         self.button = QToolButton()
         self.button.setDefaultAction(compare)
-        self._color = ""
+        self.color = ""
         said = QHBoxLayout()
         said.setSpacing(8)
         said.addWidget(self._dot, 0, Qt.AlignmentFlag.AlignTop)
@@ -51,7 +51,7 @@ class ConvergencePanel(QWidget):
 
     def show_state(self, old: WindowState, new: WindowState) -> None:
         """Follow the window's state."""
-        seen = ("document", "solution", "iterate", "progress")
+        seen = ("document", "solution", "iterate", "trial", "field")
         if all(getattr(old, name) is getattr(new, name) for name in seen):
             return
         solution = new.solution
@@ -59,14 +59,14 @@ class ConvergencePanel(QWidget):
             so_far = new.iterate.step.energies
             self.plot.show_energies(so_far)
             self._say(WAITING, "Solving…", energies(so_far))
-        elif solution is not None and new.solved:
-            self._show_solution(solution)
-        else:
+        elif solution is None:
             self.plot.show_energies(())
             self.plot.empty_text = "No iterations yet"
-            awaited = new.document is not None and new.document.budget.satisfied
-            solving = awaited and new.progress is not None
-            self._say(WAITING, "Solving…" if solving else "Nothing is solved yet.", "")
+            self._say(WAITING, "Nothing is solved yet.", "")
+        elif new.solved and new.field is solution.field:
+            self._show_solution(solution)
+        else:  # what is said is of before: no colour stands for it until there is news
+            self._show_dot(WAITING)
 
     def _show_solution(self, solution: Solution) -> None:
         field, verdict = solution.field, solution.verdict
@@ -81,9 +81,12 @@ class ConvergencePanel(QWidget):
         self._say(COLORS[verdict.status], said, "\n".join(facts))
 
     def _say(self, color: str, verdict: str, facts: str) -> None:
-        if color != self._color:
-            self._color = color
-            self._dot.setPixmap(dot_icon(color).pixmap(DOT))
+        self._show_dot(color)
         self.verdict.setText(verdict)
         self.facts.setText(facts)
         self.facts.setVisible(bool(facts))
+
+    def _show_dot(self, color: str) -> None:
+        if color != self.color:
+            self.color = color
+            self._dot.setPixmap(dot_icon(color).pixmap(DOT))
