@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import shutil
 import tempfile
 from collections.abc import Iterator
@@ -45,12 +46,15 @@ def staged(directory: str | Path) -> Iterator[Path]:
 
 
 def _move(staging: Path, target: Path) -> None:
-    """Move all files below `staging` to the same places below `target`."""
-    for path in sorted(staging.rglob("*")):
-        place = target / path.relative_to(staging)
-        if not path.is_dir():
-            place.parent.mkdir(parents=True, exist_ok=True)
-            path.replace(place)
+    """Move all files below `staging` to the same places below `target`; all or none."""
+    files = [path for path in sorted(staging.rglob("*")) if not path.is_dir()]
+    places = [target / path.relative_to(staging) for path in files]
+    for place in places:
+        if place.is_dir():
+            raise IsADirectoryError(errno.EISDIR, f"{place.name} is a folder")
+    for path, place in zip(files, places, strict=True):
+        place.parent.mkdir(parents=True, exist_ok=True)
+        path.replace(place)
 
 
 def _unwritable(target: Path, error: OSError) -> CrossviewError:

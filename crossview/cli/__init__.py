@@ -54,6 +54,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _refuse(_usage_error(tokens, error))
     except CrossviewError as error:
         return _refuse(error)
+    except OSError as error:  # files say themselves what is wrong with them
+        return _refuse(CrossviewError("cannot write the results", "", error.strerror or str(error)))
     except MemoryError:
         return _refuse(CrossviewError("out of memory", "", "use a coarser surface"))
     except KeyboardInterrupt:

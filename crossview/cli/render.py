@@ -62,15 +62,15 @@ def render(
     quiet
         Show neither progress nor summary.
     """
+    from crossview.export.figures import check
     from crossview.export.figures import render as draw
-    from crossview.scene import layers_named
 
     found = chosen_case(case, method, component, repair)
     if found.options.component == "all":
         raise CrossviewError("a picture shows one component", "all", "name one with --component")
     shown = None if layers is None else [name.strip() for name in layers.split(",")]
-    layers_named(shown or [])  # a wrong name is told before the work and not after
-    pixels = _size(size)
+    pixels, target = _size(size), Path(output)
+    check(target, layers=shown, size=pixels, scale=scale, camera=camera)
 
     def work(path: Path) -> Generator[Progress, None, Solution]:
         (solution,) = yield from solve_case(found)
@@ -86,7 +86,6 @@ def render(
         )
         return solution
 
-    target = Path(output)
     with staged(target.parent) as staging:
         watch(work(staging / target.name), quiet)
     if not quiet:

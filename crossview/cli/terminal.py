@@ -35,6 +35,8 @@ def complain(line: str) -> None:
 
 
 def _write(console: Console, line: str) -> None:
+    # a terminal of few letters shows the others by their numbers
+    line = line.encode(console.encoding, "backslashreplace").decode(console.encoding)
     console.print(line, markup=False, highlight=False, emoji=False, soft_wrap=True)
 
 

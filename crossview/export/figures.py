@@ -97,7 +97,7 @@ def check(
 def _check_kind(path: Path) -> None:
     if path.suffix.lower() not in KINDS:
         raise FigureError(
-            "unknown kind of figure", path.name, "end its name in " + ", ".join(KINDS)
+            "unknown kind of figure", str(path), "end its name in " + ", ".join(KINDS)
         )
 
 

@@ -143,7 +143,8 @@ def test_a_wrong_case_is_refused(crossview, tmp_path, case, said):
         (["solve", "torus", "-o", "file"], ["cannot write, Not a directory", "file"]),
         (["info", "picture.png"], ["picture.png"]),
         (["info", "."], ["."]),
-        (["render", "torus", "-o", "out/a.xyz"], ["unknown kind of figure"]),
+        (["render", "torus", "-o", "out/a.xyz"], ["unknown kind of figure (out/a.xyz)"]),
+        (["render", "torus", "-o", "."], ["unknown kind of figure (.)"]),
         (["render", "torus", "-o", "out/a.png", "--layers", "G"], ['no layer "G"']),
         (["render", "torus", "-o", "out/a.png", "--size", "big"], ['unknown size "big"']),
         (["render", "torus", "-o", "out/a.png", "--size", "1x1"], ["cannot draw"]),
@@ -162,6 +163,28 @@ def test_a_wrong_command_line_is_refused(crossview, tmp_path, monkeypatch, argum
     (tmp_path / "picture.png").write_bytes(b"\x89PNG")
     monkeypatch.chdir(tmp_path)
     refused(crossview(*arguments), tmp_path, *said)
+
+
+def test_what_stands_in_the_way_is_told_and_nothing_written(crossview, tmp_path):
+    (tmp_path / "there" / "surface.vtp").mkdir(parents=True)
+    ran = crossview("solve", "square", "-o", tmp_path / "there")
+    refused(ran, tmp_path, "cannot write, surface.vtp is a folder")
+    assert [p.name for p in (tmp_path / "there").iterdir()] == ["surface.vtp"]
+
+
+def test_a_terminal_of_few_letters_and_a_full_disk(tmp_path):
+    path = write_obj(tmp_path / "Würfel.obj", [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    ran = run("info", path, PYTHONIOENCODING="ascii")
+    assert (ran.returncode, ran.stderr) == (0, "")
+    assert r"W\xfcrfel.obj: 3 vertices" in ran.stdout
+    if not Path("/dev/full").exists():
+        return
+    with Path("/dev/full").open("w") as full:
+        failed = subprocess.run([PROGRAM, "info", path], stdout=full, stderr=-1, text=True)
+    assert failed.returncode == 2
+    assert failed.stderr == (
+        "crossview: error: cannot write the results: No space left on device\n"
+    )
 
 
 def test_a_failed_solve_leaves_earlier_results_alone(crossview, tmp_path):
