@@ -1,6 +1,7 @@
 # make run    the window on a gallery case; without a display, a picture of it
 # make test   lint, types, import contracts and all tests
 # make bench  the performance figures
+# make table  the table of docs/anisotropic.md (minutes); CROSSVIEW_DATA names a folder of surfaces
 # make clean  forget the environment and every cache
 PYTHON ?= python3
 VENV := .venv
@@ -10,7 +11,7 @@ PICTURE := crossview.png
 XVFB := $(if $(filter Darwin,$(shell uname)),,xvfb-run -a -s "-screen 0 1600x1200x24")
 PIP_INSTALL := $(VENV)/bin/python -m pip install --disable-pip-version-check
 
-.PHONY: run test bench clean
+.PHONY: run test bench table clean
 
 run:
 	@sh tools/system-packages.sh window "$(PYTHON)"
@@ -30,6 +31,10 @@ bench:
 	@sh tools/system-packages.sh test "$(PYTHON)"
 	@$(MAKE) --no-print-directory $(VENV)/installed-bench
 	$(XVFB) $(VENV)/bin/python -m pytest benchmarks
+
+table:
+	@$(MAKE) --no-print-directory $(VENV)/installed
+	$(VENV)/bin/python -m benchmarks.table docs/anisotropic.md
 
 $(VENV)/bin/python:
 	"$(PYTHON)" -m venv $(VENV)

@@ -30,8 +30,29 @@ def rows() -> Iterator[str]:
         yield f"  peak memory                      {got['memory']:8.0f} MB"
 
 
+def anisotropic_rows() -> Iterator[str]:
+    for n in sorted({n for name, n in MEASURED if name == "anisotropic"}):
+        got = {name: value for (name, size), value in MEASURED.items() if size == n}
+        yield f"{n} triangles"
+        if "laplacian" in got:
+            yield f"  SuperLU factorisation of S       {got['laplacian']:8.3f} s"
+        for name, label in (("newton", "a Newton step"), ("newton-superlu", "the same by SuperLU")):
+            if name in got and "laplacian" in got:
+                yield (
+                    f"  {label:32} {got[name]:8.3f} s "
+                    f"= {got[name] / got['laplacian']:5.2f} factorisations"
+                )
+        yield f"  aligned and smoothest field      {got['anisotropic']:8.3f} s"
+        if "anisotropic-memory" in got:
+            yield f"  peak memory                      {got['anisotropic-memory']:8.0f} MB"
+
+
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
-    if MEASURED:
-        terminalreporter.section("the isotropic stage")
-        for row in rows():
+    for title, told in (
+        ("the isotropic stage", list(rows())),
+        ("the anisotropic stage", list(anisotropic_rows())),
+    ):
+        if told:
+            terminalreporter.section(title)
+        for row in told:
             terminalreporter.write_line(row)
