@@ -6,7 +6,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from crossview.io.libraries import read_gltf, read_msh, read_vtk, read_vtp
 from crossview.io.ply import read_ply
 from crossview.io.polygons import Polygons
 from crossview.io.stl import read_stl
@@ -14,16 +13,29 @@ from crossview.io.text import read_obj, read_off
 from solvers.errors import CrossviewError
 from solvers.triangulation import FloatArray, IntArray
 
+
+def _from_libraries(name: str) -> Callable[[Path], Polygons]:
+    """A function of `libraries`, imported when it is wanted: that takes a quarter of a second."""
+
+    def read(path: Path) -> Polygons:
+        from crossview.io import libraries
+
+        reader: Callable[[Path], Polygons] = getattr(libraries, name)
+        return reader(path)
+
+    return read
+
+
 READERS: dict[str, Callable[[Path], Polygons]] = {
     ".obj": read_obj,
     ".ply": read_ply,
     ".stl": read_stl,
     ".off": read_off,
-    ".vtk": read_vtk,
-    ".vtp": read_vtp,
-    ".gltf": read_gltf,
-    ".glb": read_gltf,
-    ".msh": read_msh,
+    ".vtk": _from_libraries("read_vtk"),
+    ".vtp": _from_libraries("read_vtp"),
+    ".gltf": _from_libraries("read_gltf"),
+    ".glb": _from_libraries("read_gltf"),
+    ".msh": _from_libraries("read_msh"),
 }
 SUFFIXES = tuple(READERS)
 """The file name endings that can be read."""

@@ -106,7 +106,14 @@ def _surface_of(data: Any, path: Path) -> Polygons:
     other = mesh.GetNumberOfLines() + mesh.GetNumberOfVerts()
     if other:
         notes.append(f"left out {counted(other, 'line or point')}")
-    return Polygons.of_polydata(mesh.triangulate() if mesh.n_strips else mesh, notes)
+    mesh = mesh.triangulate() if mesh.n_strips else mesh
+    faces = mesh.GetPolys()
+    return Polygons(
+        np.asarray(mesh.points, dtype=np.float64),
+        np.diff(pv.convert_array(faces.GetOffsetsArray())).astype(np.int64),
+        pv.convert_array(faces.GetConnectivityArray()).astype(np.int64),
+        tuple(notes),
+    )
 
 
 def _require_points(cells: Any, n_points: int, path: Path) -> None:

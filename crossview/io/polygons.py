@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import pyvista as pv
 
 from solvers.errors import SurfaceError
 from solvers.triangulation import FloatArray, IntArray
@@ -45,19 +44,6 @@ class Polygons:
             points, np.concatenate(sizes + none), np.concatenate(corners + none), tuple(notes)
         )
 
-    @classmethod
-    def of_polydata(cls, mesh: pv.PolyData, notes: Sequence[str] = ()) -> Polygons:
-        """Take the faces of a PyVista surface."""
-        cells = mesh.GetPolys()
-        sizes = np.diff(pv.convert_array(cells.GetOffsetsArray()))
-        corners = pv.convert_array(cells.GetConnectivityArray())
-        return cls(
-            np.asarray(mesh.points, dtype=np.float64),
-            sizes.astype(np.int64),
-            corners.astype(np.int64),
-            tuple(notes),
-        )
-
     def triangles(self) -> tuple[IntArray, tuple[str, ...]]:
         """Return the (k, 3) triangles, larger polygons split by ear cutting, and the notes.
 
@@ -79,6 +65,8 @@ class Polygons:
                 bad,
                 "faces",
             )
+        import pyvista as pv  # takes a while, and most files hold triangles only
+
         starts = np.cumsum(self.sizes) - self.sizes
         mesh = pv.PolyData(self.points, np.insert(self.corners, starts, self.sizes))
         note = f"split {counted(larger, 'polygon')} of more than three corners into triangles"

@@ -165,6 +165,13 @@ def test_a_wrong_command_line_is_refused(crossview, tmp_path, monkeypatch, argum
     refused(crossview(*arguments), tmp_path, *said)
 
 
+def test_what_needs_no_graphics_does_not_wait_for_it():
+    asked = "import sys, crossview.cli; print([m for m in sys.modules if m in sys.argv[1:]])"
+    heavy = ["pyvista", "meshio", "vtkmodules", "PySide6", "matplotlib"]
+    ran = subprocess.run([sys.executable, "-c", asked, *heavy], capture_output=True, text=True)
+    assert ran.stdout == "[]\n"
+
+
 def test_what_stands_in_the_way_is_told_and_nothing_written(crossview, tmp_path):
     (tmp_path / "there" / "surface.vtp").mkdir(parents=True)
     ran = crossview("solve", "square", "-o", tmp_path / "there")
