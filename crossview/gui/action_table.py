@@ -79,7 +79,7 @@ def _naturals() -> tuple[ActionSpec, ...]:
             f"natural-{method}",
             label,
             "Singularities",
-            lambda w, method=method: w.workspace.place_natural(method),  # type: ignore[misc]
+            lambda w, method=method: w.workspace.moves.place_natural(method),  # type: ignore[misc]
             tip="Replace the singularities by those that a smooth cross-field has by itself",
             enabled=_open,
             submenu="Natural singularities",
@@ -218,7 +218,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
         tip="Delete every singularity", enabled=lambda s: len(s.singularities) > 0,
     ),
     ActionSpec(
-        "make-valid", "Make valid", "Singularities", lambda w: w.workspace.make_valid(),
+        "make-valid", "Make valid", "Singularities", lambda w: w.workspace.moves.make_valid(),
         tip="Move unlocked singularities as little as need be until every loop closes",
         enabled=_movable, separated=True,
     ),

@@ -82,7 +82,7 @@ class Files:
 
         def write() -> None:
             render_view(
-                figure_view(window.state, settings, window.viewport.held_ranges),
+                figure_view(window.state, settings, window.viewport.held.ranges),
                 path,
                 size=settings.size,
                 scale=settings.scale,

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from types import MappingProxyType
 
 import numpy as np
 
 from crossview.gui.figure_settings import FigureSettings
+from crossview.gui.ranges import NO_RANGES, Ranges
 from crossview.gui.state import WindowState
 from crossview.scene import Elements, LayerSettings, Marker, SceneView, field_view
 from crossview.scene.view import Background
@@ -18,9 +18,6 @@ from solvers.surface import TriSurface
 from solvers.triangulation import FloatArray, IntArray
 
 POOR_QUALITY = 0.1
-Range = tuple[float, float]
-Ranges = Mapping[str, Range]
-NO_RANGES: Ranges = MappingProxyType({})
 
 
 def scene_view(state: WindowState, held: Ranges = NO_RANGES) -> SceneView:

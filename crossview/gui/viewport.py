@@ -23,12 +23,12 @@ from pyvistaqt import QtInteractor
 
 from crossview.gui.mouse import Mouse
 from crossview.gui.picking import Pick, Picker, Place
-from crossview.gui.scene_view import Range, scene_view
+from crossview.gui.ranges import HeldRanges
+from crossview.gui.scene_view import scene_view
 from crossview.gui.state import WindowState
 from crossview.gui.workspace import Workspace
-from crossview.problem import Problem
-from crossview.scene import Scene, SceneView, software_renderer
-from crossview.scene.scalars import density_limits, shown_scalar
+from crossview.scene import Scene, software_renderer
+from crossview.scene.scalars import shown_scalar
 from crossview.scene.singularities import marker_radius
 
 LATE_MS = 120
@@ -38,8 +38,6 @@ REST_MS = 300
 TITLE_PIXELS, BESIDE_TITLE = 17, 130
 """Height of the title's letters; pixels beside it that the axes need."""
 BASE_DPI = 72
-HELD = {"H": ("H",), "H1": ("H1", "H2"), "H2": ("H1", "H2")}
-"""Layers whose colour range stays when another method is chosen, by the layer shown."""
 REACH = 7.0
 """Pixels around a singularity that count as on it."""
 
@@ -70,8 +68,7 @@ class Viewport(QWidget):
         self.picker = Picker(self.plotter.renderer)
         self.mouse = Mouse(self, workspace)
         self.plotter.installEventFilter(self.mouse)
-        self._held_for: Problem | None = None
-        self.held_ranges: dict[str, Range] = {}
+        self.held = HeldRanges()
         self._started = 0.0
         self._fitted: str | None = "auto"  # the preset view, until the user turns it
         self._late = self._timer(LATE_MS, self._draw)
@@ -100,32 +97,11 @@ class Viewport(QWidget):
 
     def _draw(self) -> None:
         state = self._workspace.state
-        self._drop_ranges(state)
-        view = scene_view(state, self.held_ranges)
+        self.held.follow(state)
+        view = scene_view(state, self.held.ranges)
         if self.scene.show(replace(view, title=self._elided(view.title))):
             self._update()
-        self._hold_range(state, view)
-
-    def _drop_ranges(self, state: WindowState) -> None:
-        """Fit colours anew to a field of another problem; another method's keeps them."""
-        problem = state.shown_problem
-        if problem is None:
-            return
-        if self._held_for is None or not problem.same_but_method(self._held_for):
-            self.held_ranges = {}
-        self._held_for = problem
-        if state.start is not None and "error" not in self.held_ranges:
-            areas = state.start.surface.face_areas
-            self.held_ranges["error"] = density_limits(state.start.error_density, areas)
-
-    def _hold_range(self, state: WindowState, view: SceneView) -> None:
-        """Keep the range of what is shown of a solution."""
-        if state.iterate is not None or state.shown_problem is None:
-            return
-        name = shown_scalar(view)
-        for held in HELD.get(name, ()):
-            if state.layers[held].value_range is None:
-                self.held_ranges.setdefault(held, self.scene.limits)
+        self.held.hold(state, shown_scalar(view), self.scene.limits)
 
     def _update(self) -> None:
         """Ask for one frame, fast; a smooth one follows when nothing moves any more."""
@@ -243,9 +219,7 @@ class Viewport(QWidget):
 
 def _same_picture(old: WindowState, new: WindowState) -> bool:
     """Whether only what the scene does not show differs."""
-    unseen = {"progress", "iterate", "undo_name", "redo_name"}
+    unseen = {"message", "progress", "iterate", "undo_name", "redo_name"}
     return old.faulty is new.faulty and all(
-        getattr(old, name) is value
-        for name, value in vars(new).items()
-        if name not in unseen and name != "message"
+        getattr(old, name) is value for name, value in vars(new).items() if name not in unseen
     )

@@ -8,8 +8,9 @@ from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 
+from crossview.gui.moves import Moves
 from crossview.gui.solving import Solving
-from crossview.gui.state import Faulty, Message, MessageAction
+from crossview.gui.state import Faulty, MessageAction
 from crossview.gui.store import Store
 from crossview.gui.trials import Trials
 from crossview.scene import Elements
@@ -25,7 +26,6 @@ from crossview.session.commands import (
 from crossview.session.document import Document
 from crossview.session.history import History
 from crossview.session.mending import Mending
-from crossview.session.moving import move_to_validity, place_natural
 from crossview.session.opening import open_target, read_triangles
 from solvers.errors import SurfaceError
 from solvers.points import SurfacePoint
@@ -44,6 +44,7 @@ class Workspace(Store):
         self._history = History()
         self.solving = Solving(self)
         self.trials = Trials(self, self.solving, self.do)
+        self.moves = Moves(self, self.solving, self.do)
 
     def close(self) -> None:
         """End the background thread."""
@@ -135,34 +136,6 @@ class Workspace(Store):
         if document is not None and document.problem.method != method:
             self.do(ChooseMethod(method))
 
-    def make_valid(self) -> None:
-        """Move the unlocked singularities to where the holonomy defects vanish."""
-        state = self.state
-        if state.document is None:
-            return
-
-        def failed(error: Exception) -> None:
-            self.solving.restore()
-            solve = MessageAction("Solve anisotropic", partial(self.choose_method, "anisotropic"))
-            self.fail(error, "edit", () if self.state.method == "anisotropic" else (solve,))
-
-        self.clear_message("edit")
-        job = partial(move_to_validity, state.document, state.base)
-        self.solving.run(job, self.do, failed, self._restore)
-
-    def place_natural(self, method: str) -> None:
-        """Replace the singularities by those of a smooth cross-field."""
-        document = self.state.document
-        if document is None:
-            return
-
-        def failed(error: Exception) -> None:
-            self.solving.restore()
-            self.fail(error, "edit")
-
-        job = partial(place_natural, document, method)
-        self.solving.run(job, self.do, failed, self._restore)
-
     def compare(self) -> None:
         """Show the error density of the start, or of the result again, on the same range."""
         comparing = not self.state.comparing
@@ -173,11 +146,6 @@ class Workspace(Store):
         """Change settings of one layer."""
         self.set(layers=self.state.with_layer(name, **changes).layers)
         self.solving.cut_if_wanted()
-
-    def _restore(self) -> None:
-        """Show the document as it was after a job that was stopped."""
-        self.solving.restore()
-        self.set(message=Message("Stopped; nothing was changed", "edit", "info"))
 
     def _locate(self, target: str, error: SurfaceError) -> None:
         """Show what could not be opened, the offending elements pointed out."""

@@ -1,0 +1,61 @@
+"""Verbs that place all singularities anew in the background, each one step of the history."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator
+from functools import partial
+
+from crossview.gui.solving import Solving
+from crossview.gui.state import Message, MessageAction
+from crossview.gui.store import Store
+from crossview.session.commands import ChooseMethod, Command
+from crossview.session.moving import move_to_validity, place_natural
+from solvers.progress import Progress
+
+
+class Moves:
+    """Moves singularities to validity, or to where they appear by themselves.
+
+    Parameters
+    ----------
+    store : Store
+    solving : Solving
+    do : callable
+        Makes a command one step of the history.
+    """
+
+    def __init__(self, store: Store, solving: Solving, do: Callable[[Command], None]) -> None:
+        self._store = store
+        self._solving = solving
+        self._do = do
+
+    def make_valid(self) -> None:
+        """Move the unlocked singularities to where the holonomy defects vanish."""
+        state = self._store.state
+        if state.document is None:
+            return
+        solve = MessageAction("Solve anisotropic", lambda: self._do(ChooseMethod("anisotropic")))
+        offers = () if state.method == "anisotropic" else (solve,)
+        self._run(partial(move_to_validity, state.document, state.base), offers)
+
+    def place_natural(self, method: str) -> None:
+        """Replace the singularities by those of a smooth cross-field."""
+        document = self._store.state.document
+        if document is not None:
+            self._run(partial(place_natural, document, method))
+
+    def _run(
+        self,
+        job: Callable[[], Generator[Progress, None, Command]],
+        offers: tuple[MessageAction, ...] = (),
+    ) -> None:
+        def failed(error: Exception) -> None:
+            self._solving.restore()
+            self._store.fail(error, "edit", offers)
+
+        def stopped() -> None:
+            self._solving.restore()
+            self._store.set(message=Message("Stopped; nothing was changed", "edit", "info"))
+
+        self._store.clear_message("edit")
+        self._solving.run(job, self._do, failed, stopped)
