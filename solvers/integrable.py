@@ -107,14 +107,32 @@ def _solve(aligned: AlignedField, newton: MinimumNormNewton) -> Iteration:
     if direct.converged:
         return direct
     for stages in HOMOTOPY_STAGES:
-        x = aligned.start
-        for stage in range(1, stages):
-            partly = MinimumNormNewton(aligned.partly(stage / stages))
-            x = (yield from partly.solve(x)).x
-        last = yield from newton.solve(x)
+        last = yield from by_stages(aligned, newton, stages)
         if last.converged:
             return Iterate(last.x, direct.history + last.history, True)
     return direct
+
+
+def by_stages(aligned: AlignedField, newton: MinimumNormNewton, stages: int) -> Iteration:
+    """Turn the misaligned boundaries and handles to zero bit by bit, with E = 0 at each stage.
+
+    The isotropic field is integrable, whatever its defects; the field with a fraction of the
+    harmonic correction is next to the one with a smaller fraction.
+
+    Parameters
+    ----------
+    aligned : AlignedField
+        Where to get.
+    newton : MinimumNormNewton
+        On its integrability problem.
+    stages : int
+        Into how many parts the correction is cut.
+    """
+    x = aligned.start
+    for stage in range(1, stages):
+        partly = MinimumNormNewton(aligned.partly(stage / stages))
+        x = (yield from partly.solve(x)).x
+    return (yield from newton.solve(x))
 
 
 def _shown(

@@ -8,7 +8,7 @@ from solvers.alternating import alternate
 from solvers.anisotropic import MinimumNormNewton
 from solvers.crossfield import CrossField
 from solvers.errors import CrossviewError
-from solvers.integrable import FieldStep, alternating_field, anisotropic_field
+from solvers.integrable import FieldStep, alternating_field, anisotropic_field, by_stages
 from solvers.isotropic import IsotropicSolver
 from solvers.primitives import BUILTIN
 from solvers.progress import run
@@ -225,6 +225,21 @@ def test_the_history_is_what_the_steps_have_shown() -> None:
         assert len(history) <= len(steps) + 2
 
 
+@pytest.mark.parametrize("name", ["annulus", "plate", "double_torus"])
+@pytest.mark.parametrize("stages", [2, 4])
+def test_the_homotopy_reaches_the_aligned_field_by_stages(name: str, stages: int) -> None:
+    surface = SURFACES[name]()
+    start = aligned(surface, random_configuration(surface, seed=4))
+    assert np.abs(start.isotropic.defects).max() > np.radians(5)
+    partly = start.partly(0.5)
+    assert partly.assembly.n == start.integrability.assembly.n
+    halfway = partly.residual(start.start).energy
+    assert halfway == pytest.approx(start.integrability.residual(start.start).energy / 2)
+    end = run(by_stages(start, MinimumNormNewton(start.integrability), stages))
+    assert end.converged
+    assert end.history[0] < start.integrability.residual(start.start).energy
+
+
 def test_each_step_can_be_shown_as_a_field() -> None:
     surface = SURFACES["annulus"]()
     start = aligned(surface, random_configuration(surface, seed=4))
@@ -254,6 +269,20 @@ def test_the_seamless_map_closes_without_flips(name: str) -> None:
     complex_images = mapped.images[..., 0] + 1j * mapped.images[..., 1]
     one, other = complex_images.reshape(-1)[h], complex_images.reshape(-1)[t.twin[h]]
     assert np.abs(other + 1j ** i.quarter_turns[h] * one).max() < 1e-9
+
+
+def test_the_map_is_not_turned_over_where_sizes_differ_a_thousandfold() -> None:
+    """One valence 3 at the end of each of four long fingers: sizes fall as exp along them."""
+    cross = np.array([[1, 0.25], [5, 0.25], [5, -0.25], [1, -0.25]])
+    arms = [cross @ np.array([[c, s], [-s, c]]) for c, s in ((1, 0), (0, -1), (-1, 0), (0, 1))]
+    surface = BUILTIN["planar"](outer=np.concatenate(arms).tolist(), edge_length=0.12)
+    solver = IsotropicSolver(surface, {}, flips=False)
+    tips = 4.75 * np.array([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0]])
+    vertices = [int(np.linalg.norm(surface.vertices - tip, axis=1).argmin()) for tip in tips]
+    start = aligned_field(solver, at_vertices(surface, vertices, [3] * 4))
+    assert np.ptp(start.isotropic.H) > np.log(1000)
+    mapped = IntegratedField(start, start.start).seamless_map
+    assert len(mapped.flipped) == 0
 
 
 def test_triangles_turned_over_at_singularities_are_mended() -> None:
