@@ -24,7 +24,7 @@ LEAST_WEIGHT = 0.05
 STIFFER, ROUNDS = 5.0, 6
 """Growth of the weight of triangles turned over, and how often it grows at most."""
 
-HOPELESS = 0.01
+HOPELESS = 0.05
 """Share of triangles turned over beyond which mending them is not tried."""
 
 
@@ -68,7 +68,7 @@ def seamless_map(integrability: Integrability, x: FloatArray) -> SeamlessMap:
     """
     t = integrability.triangulation
     fit = _Fit(integrability)
-    weight = np.maximum(t.weights, LEAST_WEIGHT / 2)
+    weight = np.maximum(t.weights, LEAST_WEIGHT / 2) * _by_size(integrability, x)
     wanted, upright = _wanted(integrability, x), _wanted_by_means(integrability, x)
     best = found = fit.solve(wanted, weight)
     for _ in range(ROUNDS):
@@ -120,6 +120,16 @@ def _wanted(integrability: Integrability, x: FloatArray) -> FloatArray:
     a = (a + a[:, following]) / 2
     s = (s + s[:, following]) / 2
     return _over_sizes(t, i.theta[:, None] + i.offsets + delta, a, s)
+
+
+def _by_size(integrability: Integrability, x: FloatArray) -> FloatArray:
+    """Return the square of the size at each halfedge (3 m,): to be off by part of a quad counts.
+
+    Sizes may differ a thousandfold; without, the smallest images give way to the largest.
+    """
+    a = integrability.local(x)[0]
+    square = np.exp(-(a + a[:, [1, 2, 0]])).reshape(-1)
+    return np.asarray(square / square.max())
 
 
 def _wanted_by_means(integrability: Integrability, x: FloatArray) -> FloatArray:

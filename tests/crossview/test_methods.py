@@ -157,6 +157,15 @@ def test_verify_solves_on_a_refined_mesh_and_tells_the_growth():
     assert forced.verdict.status == "impossible"
 
 
+def test_verify_and_turns_around_handles_are_refused(crossview, tmp_path, case_file):
+    torus = [((1.4, 0, 0), 3), ((0, 0.75, 0.31), 3), ((-1.4, 0, 0), 5), ((0, -0.75, 0.31), 5)]
+    options = {"refine": 0, "verify": True, "turns": [1, 0]}
+    path = case_file({"builtin": "torus", "n": 24}, torus, method="anisotropic", options=options)
+    ran = crossview("solve", path, "-o", tmp_path / "out")
+    assert ran.status == 2
+    assert "verify cannot follow turns" in ran.err
+
+
 def test_verify_keeps_the_layout_where_the_defect_is_next_to_45_degrees():
     options = replace(OPTIONS, verify=True)
     assert solved(annulus("anisotropic", 44.99, options)).growth < 1.5

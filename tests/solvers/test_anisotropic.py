@@ -272,17 +272,14 @@ def test_the_seamless_map_closes_without_flips(name: str) -> None:
 
 
 def test_the_map_is_not_turned_over_where_sizes_differ_a_thousandfold() -> None:
-    """One valence 3 at the end of each of four long fingers: sizes fall as exp along them."""
-    cross = np.array([[1, 0.25], [5, 0.25], [5, -0.25], [1, -0.25]])
-    arms = [cross @ np.array([[c, s], [-s, c]]) for c, s in ((1, 0), (0, -1), (-1, 0), (0, 1))]
-    surface = BUILTIN["planar"](outer=np.concatenate(arms).tolist(), edge_length=0.12)
-    solver = IsotropicSolver(surface, {}, flips=False)
-    tips = 4.75 * np.array([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0]])
-    vertices = [int(np.linalg.norm(surface.vertices - tip, axis=1).argmin()) for tip in tips]
-    start = aligned_field(solver, at_vertices(surface, vertices, [3] * 4))
+    """Eight valence 3 around one end of a long ellipsoid: sizes grow as exp towards the other."""
+    surface = BUILTIN["ellipsoid"](x=5, y=1, z=1, subdivisions=4)
+    angles = np.arange(8) * np.pi / 4
+    places = np.stack([0 * angles + 4, 0.6 * np.cos(angles), 0.6 * np.sin(angles)], axis=1)
+    vertices = [int(np.linalg.norm(surface.vertices - p, axis=1).argmin()) for p in places]
+    start = aligned(surface, at_vertices(surface, vertices, [3] * 8))
     assert np.ptp(start.isotropic.H) > np.log(1000)
-    mapped = IntegratedField(start, start.start).seamless_map
-    assert len(mapped.flipped) == 0
+    assert len(IntegratedField(start, start.start).seamless_map.flipped) == 0
 
 
 def test_triangles_turned_over_at_singularities_are_mended() -> None:
