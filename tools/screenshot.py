@@ -8,7 +8,7 @@ from crossview.gui.app import application
 from crossview.gui.main_window import MainWindow
 from crossview.scene import ensure_rendering
 
-CASE = sys.argv[1] if len(sys.argv) > 1 else "torus-35"
+CASE = sys.argv[1] if len(sys.argv) > 1 else "annulus-far"
 PICTURE = Path(__file__).parents[1] / "resources" / "screenshot.png"
 SIZE, SECONDS = (1280, 800), 4.0
 

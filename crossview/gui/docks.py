@@ -52,7 +52,7 @@ def size_docks(window: MainWindow) -> None:
     )
     for column, shares in (
         (("Surface", "Singularities", "Validity"), (0.24, 0.42, 0.34)),
-        (("Layers", "Convergence"), (0.58, 0.42)),
+        (("Layers", "Convergence"), (0.52, 0.48)),
     ):
         window.resizeDocks(
             [docks[title] for title in column],

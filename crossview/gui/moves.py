@@ -10,6 +10,7 @@ from crossview.gui.state import Message, MessageAction
 from crossview.gui.store import Store
 from crossview.session.commands import ChooseMethod, Command
 from crossview.session.moving import move_to_validity, place_natural
+from solvers.errors import CrossviewError
 from solvers.progress import Progress
 
 
@@ -34,9 +35,7 @@ class Moves:
         state = self._store.state
         if state.document is None:
             return
-        solve = MessageAction("Solve anisotropic", lambda: self._do(ChooseMethod("anisotropic")))
-        offers = () if state.method == "anisotropic" else (solve,)
-        self._run(partial(move_to_validity, state.document, state.base), offers)
+        self._run(partial(move_to_validity, state.document, state.base))
 
     def place_natural(self, method: str) -> None:
         """Replace the singularities by those of a smooth cross-field."""
@@ -44,14 +43,10 @@ class Moves:
         if document is not None:
             self._run(partial(place_natural, document, method))
 
-    def _run(
-        self,
-        job: Callable[[], Generator[Progress, None, Command]],
-        offers: tuple[MessageAction, ...] = (),
-    ) -> None:
+    def _run(self, job: Callable[[], Generator[Progress, None, Command]]) -> None:
         def failed(error: Exception) -> None:
             self._solving.restore()
-            self._store.fail(error, "edit", offers)
+            self._store.fail(error, "edit", self._offers(error))
 
         def stopped() -> None:
             self._solving.restore()
@@ -59,3 +54,11 @@ class Moves:
 
         self._store.clear_message("edit")
         self._solving.run(job, self._do, failed, stopped)
+
+    def _offers(self, error: Exception) -> tuple[MessageAction, ...]:
+        """Return what the error itself says may be done."""
+        remedy = error.remedy if isinstance(error, CrossviewError) else ""
+        if "anisotropic" not in remedy or self._store.state.method == "anisotropic":
+            return ()
+        solve = partial(self._do, ChooseMethod("anisotropic"))
+        return (MessageAction("Solve anisotropic", solve),)

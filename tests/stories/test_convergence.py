@@ -251,3 +251,16 @@ def test_natural_singularities_of_a_disk(hand: Hand) -> None:
     hand.trigger("undo")
     hand.wait(lambda: hand.state.solved)
     assert hand.state.document is before
+
+
+def test_the_torus_that_is_never_valid_is_not_said_to_be(hand: Hand) -> None:
+    hand.open("torus-35")
+    hand.wait(lambda: hand.state.solved)
+    hand.trigger("make-valid")
+    hand.wait(lambda: hand.state.message is not None)
+    assert "never valid" in hand.state.message.text
+    assert hand.state.message.actions == ()  # no method makes up for it
+    choose(hand, "Anisotropic")
+    panel = hand.window.convergence_panel
+    assert panel.verdict.text().startswith("No quadrangulation of a torus has one valence 3")
+    assert panel.color == BAD

@@ -24,7 +24,7 @@ class EnergyPlot(QWidget):
         super().__init__(parent)
         self.energies: tuple[float, ...] = ()
         self.empty_text = "No iterations yet"
-        self.setMinimumHeight(96)
+        self.setMinimumHeight(80)
         self.setAccessibleName("E by iteration")
 
     def sizeHint(self) -> QSize:
