@@ -11,6 +11,9 @@ from solvers.errors import SingularityError
 from solvers.points import SurfacePoint
 from solvers.surface import TriSurface
 
+TIE = 1e-3
+"""By how many quads an angle may miss the middle between two numbers and still count as there."""
+
 
 @dataclass(frozen=True)
 class Singularity:
@@ -48,13 +51,15 @@ def default_corners(surface: TriSurface) -> dict[int, int]:
     -------
     dict of int to int
         Index k = 2 - (number of quads that meet there, the nearest to the angle and at least
-        one) for each boundary vertex where it is not zero: +1 at 90 degrees, -1 at 270.
+        one) for each boundary vertex where it is not zero: +1 at 90 degrees, -1 at 270. Halfway
+        between, as at 135 degrees, the one nearer to a straight boundary counts.
     """
     vertices = np.flatnonzero(surface.boundary_vertices)
-    angle = np.pi - surface.angle_defects[vertices]
-    quads = np.maximum(np.rint(angle / (np.pi / 2)).astype(int), 1)
-    turning = quads != 2
-    return {int(v): int(k) for v, k in zip(vertices[turning], 2 - quads[turning], strict=True)}
+    turn = surface.angle_defects[vertices] / (np.pi / 2)
+    size = np.ceil(np.abs(turn) - 0.5 - TIE)
+    index = np.minimum((np.sign(turn) * size).astype(int), 1)
+    turning = index != 0
+    return {int(v): int(k) for v, k in zip(vertices[turning], index[turning], strict=True)}
 
 
 @dataclass(frozen=True)

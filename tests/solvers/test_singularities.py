@@ -23,6 +23,26 @@ def test_the_two_sides_of_a_slit_end_in_a_corner_of_index_minus_two() -> None:
     assert default_corners(TriSurface(vertices, faces))[0] == -2
 
 
+@pytest.mark.parametrize("turn", [0.0, 0.1, 0.3, 1.0])
+def test_angles_halfway_between_two_corners_are_judged_alike(turn: float) -> None:
+    """All of a regular octagon's 135 degrees are straight, however rounding falls."""
+    angles = turn + 2 * np.pi * np.arange(8) / 8
+    octagon = np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=1)
+    faces = [[8, i, (i + 1) % 8] for i in range(8)]
+    assert default_corners(TriSurface(np.vstack([octagon, [0, 0, 0]]), faces)) == {}
+
+
+@pytest.mark.parametrize(
+    ("degrees", "index"), [(5, 1), (90, 1), (134, 1), (136, 0), (224, 0), (226, -1), (314, -1)]
+)
+def test_the_index_of_a_corner_is_that_of_the_nearest_number_of_quads(degrees, index) -> None:
+    angles = np.radians(degrees) * np.arange(9) / 8
+    rim = np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=1)
+    faces = [[0, i, i + 1] for i in range(1, 9)]
+    corners = default_corners(TriSurface(np.vstack([[0, 0, 0], rim]), faces))
+    assert corners.get(0, 0) == index
+
+
 @pytest.mark.parametrize(
     ("name", "valences", "message"),
     [
