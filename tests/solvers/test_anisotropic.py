@@ -16,6 +16,7 @@ from solvers.refinement import refine_at
 from solvers.singularities import Singularity, default_corners
 from solvers.surface import TriSurface
 from solvers.triangulation import wrap
+from solvers.validity import make_valid
 from solvers.verdict import judge
 from tests.solvers.suite import SURFACES, at_vertices, random_configuration, separated
 
@@ -141,6 +142,19 @@ def test_a_valid_isotropic_field_is_left_alone(name: str) -> None:
     assert field.convergence.energies[0] < 1e-9
     assert np.abs(field.half_log_aspect).max() == 0
     assert np.abs(field.H - start.isotropic.H).max() < 1e-12
+
+
+def test_a_configuration_made_valid_keeps_its_square_quads() -> None:
+    surface = SURFACES["annulus"]()
+    moved = run(make_valid(surface, separated(surface, 3, [3, 5] * 4, 0.15)))
+    refinement = refine_at(surface, [s.point for s in moved.singularities])
+    valences = [s.valence for s in moved.singularities]
+    fine = refinement.surface
+    field = run(
+        anisotropic_field(aligned(fine, at_vertices(fine, refinement.vertices.tolist(), valences)))
+    ).field
+    assert field.energy < 1e-10
+    assert field.max_log_aspect < 0.01
 
 
 def solved(name: str, seed: int = 4) -> tuple[AlignedField, CrossField]:
