@@ -217,6 +217,20 @@ class Discretization:
 
         Over inner halfedges: how far the cross carried over from the left turns against the
         cross on the right. On the boundary: how far it turns against the boundary.
+
+        Parameters
+        ----------
+        theta : (m,) float array
+            Angles at the barycentres, as `walk` returns them, radians.
+        offsets : (m, 3) float array
+            How far the field turns from each triangle's barycentre to its edge midpoints.
+        h : (k,) int array
+            Halfedges of the triangulation.
+
+        Returns
+        -------
+        (k,) float array
+            Radians.
         """
         t, offset = self.triangulation, offsets.reshape(-1)
         g = t.twin[h]
@@ -224,7 +238,18 @@ class Discretization:
         return wrap(theta[h // 3] + offset[h] - beyond, QUARTER)
 
     def defects(self, theta: FloatArray, offsets: FloatArray) -> FloatArray:
-        """Return the holonomy defects of a walk, in the order of the conditions."""
+        """Return the holonomy defects of a walk, in the order of the conditions.
+
+        Parameters
+        ----------
+        theta, offsets
+            As of `closing`.
+
+        Returns
+        -------
+        (2 g + max(b - 1, 0),) float array
+            Radians in (-pi/4, pi/4].
+        """
         h = np.array([c.halfedge for c in self.conditions], dtype=np.int64)
         return self.closing(theta, offsets, h)
 
@@ -235,6 +260,18 @@ class Discretization:
 
         Edges on handle loops are expected to close up to the defects of those loops. Those the
         walk has crossed close by its construction; the others are measured.
+
+        Parameters
+        ----------
+        theta, offsets
+            As of `closing`.
+        defects : (2 g + max(b - 1, 0),) float array
+            As of `defects`.
+
+        Returns
+        -------
+        float
+            Radians.
         """
         offset = offsets.reshape(-1)
         h, g, left, right, apart = self._uncrossed
@@ -255,7 +292,18 @@ class Discretization:
         return h, g, h // 3, g // 3, t.transport[h]
 
     def boundary_misalignment(self, theta: FloatArray, offsets: FloatArray) -> FloatArray:
-        """Return the largest angle, with its sign, between crosses and each boundary loop."""
+        """Return the largest angle, with its sign, between crosses and each boundary loop.
+
+        Parameters
+        ----------
+        theta, offsets
+            As of `closing`.
+
+        Returns
+        -------
+        (b,) float array
+            Radians in (-pi/4, pi/4], in the order of the surface's boundary loops.
+        """
         h, loop = self.boundary_loop_of
         angle = self.closing(theta, offsets, h)
         largest = np.zeros(len(self.surface.boundary_loops))

@@ -19,6 +19,20 @@ def merge_coincident(points: FloatArray, triangles: IntArray) -> tuple[FloatArra
     """Return the arrays with one vertex for all at the same place, and a note.
 
     Triangles that shrink to an edge or a point by it are dropped.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+        Coordinates, finite; places are the same up to `COINCIDENT`.
+    triangles : (m, 3) int array
+        Corners.
+
+    Returns
+    -------
+    points, triangles : arrays
+        The first vertex of each place is kept.
+    note : str
+        What was done; empty for nothing.
     """
     places, number = np.unique(points, axis=0, return_inverse=True)
     reach = COINCIDENT * float(np.linalg.norm(np.ptp(points, axis=0)))
@@ -43,6 +57,20 @@ def mend_flat_triangles(
 
     The ends of a very short edge become one vertex; a flat triangle with three apart corners is
     flipped with the neighbour over its longest edge, or dropped on the boundary.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+        Coordinates.
+    triangles : (m, 3) int array
+        Corners.
+
+    Returns
+    -------
+    points, triangles : arrays
+        The points are those given.
+    note : str
+        What was done; empty for nothing.
     """
     count = int(degenerate_faces(points, triangles).sum())
     for _ in range(ROUNDS):

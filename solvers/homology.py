@@ -97,7 +97,18 @@ class DualTree:
         return by_face
 
     def path(self, face: int) -> IntArray:
-        """Return the halfedges crossed on the way from the root to a triangle."""
+        """Return the halfedges crossed on the way from the root to a triangle.
+
+        Parameters
+        ----------
+        face : int
+            The triangle.
+
+        Returns
+        -------
+        (k,) int array
+            Each seen from the triangle that is left.
+        """
         position = int(np.flatnonzero(self.order == face)[0])
         crossed = []
         while position:

@@ -42,7 +42,13 @@ def laplacian(n: int, rows: IntArray, columns: IntArray, weights: FloatArray) ->
 
 
 def lumped_mass(triangulation: IntrinsicTriangulation) -> FloatArray:
-    """Return the (n,) area that belongs to each vertex, a third of its triangles."""
+    """Return the (n,) area that belongs to each vertex, a third of its triangles.
+
+    Parameters
+    ----------
+    triangulation : IntrinsicTriangulation
+        Where.
+    """
     t = triangulation
     return np.asarray(np.bincount(t.tail, np.repeat(t.areas / 3, 3), t.n_vertices))
 
@@ -93,7 +99,20 @@ def midpoint_offsets(triangulation: IntrinsicTriangulation, values: FloatArray) 
 
 
 def corner_midpoint_offsets(cotangents: FloatArray, values: FloatArray) -> FloatArray:
-    """Return `midpoint_offsets` for values (m, 3) and cotangents (m, 3) given by corner."""
+    """Return `midpoint_offsets` of values given by corner.
+
+    Parameters
+    ----------
+    cotangents : (m, 3) float array
+        Of the angle at each corner.
+    values : (m, 3) float array
+        H at each corner.
+
+    Returns
+    -------
+    (m, 3) float array
+        Radians.
+    """
     flux = (cotangents[:, [2, 0, 1]] / 6.0) * (values - values[:, [1, 2, 0]])
     # flux[:, i] belongs to halfedge i. With c the cotangents, the offset at halfedge (i, j)
     # opposite k is (2 c_k (H_i - H_j) + c_j (H_i - H_k) - c_i (H_j - H_k)) / 6.

@@ -17,6 +17,20 @@ def orient(points: FloatArray, triangles: IntArray) -> tuple[FloatArray, IntArra
     As few triangles as possible are turned in each sheet; a closed sheet that needed it faces
     outwards. A sheet ends at its boundary and at edges of more than two triangles.
 
+    Parameters
+    ----------
+    points : (n, 3) float array
+        Coordinates.
+    triangles : (m, 3) int array
+        Corners.
+
+    Returns
+    -------
+    points, triangles : arrays
+        The points are those given.
+    note : str
+        How many triangles were turned; empty for none.
+
     Raises
     ------
     SurfaceError

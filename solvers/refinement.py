@@ -50,7 +50,13 @@ class Refinement:
     parent_face: IntArray
 
     def lift(self, point: SurfacePoint) -> SurfacePoint:
-        """Return a point of the refined surface as a point of the original."""
+        """Return a point of the refined surface as a point of the original.
+
+        Parameters
+        ----------
+        point : SurfacePoint
+            On `surface`.
+        """
         parent = int(self.parent_face[point.face])
         corners = self.coarse.vertices[self.coarse.faces[parent]]
         weights = barycentric(corners[None], self.surface.position(point))[0]

@@ -120,7 +120,13 @@ class TriSurface:
         )
 
     def loop_length(self, loop: IntArray) -> float:
-        """Return the length of the closed polygon through the vertices `loop`."""
+        """Return the length of the closed polygon through vertices.
+
+        Parameters
+        ----------
+        loop : (k,) int array
+            The vertices in order, none repeated.
+        """
         p = self.vertices[loop]
         return float(np.linalg.norm(np.roll(p, -1, axis=0) - p, axis=1).sum())
 
@@ -195,15 +201,33 @@ class TriSurface:
         return np.asarray(4 * np.sqrt(3) * self.face_areas / squares)
 
     def position(self, point: SurfacePoint) -> FloatArray:
-        """Return the (3,) coordinates of a surface point."""
+        """Return the (3,) coordinates of a surface point.
+
+        Parameters
+        ----------
+        point : SurfacePoint
+            On this surface.
+        """
         return np.asarray(point.barycentric) @ self.vertices[self.faces[point.face]]
 
     def positions(self, points: Sequence[SurfacePoint]) -> FloatArray:
-        """Return the (k, 3) coordinates of surface points."""
+        """Return the (k, 3) coordinates of surface points.
+
+        Parameters
+        ----------
+        points : sequence of SurfacePoint
+            On this surface, any number.
+        """
         return np.array([self.position(point) for point in points]).reshape(-1, 3)
 
     def point_at_vertex(self, vertex: int) -> SurfacePoint:
-        """Return a vertex as a surface point."""
+        """Return a vertex as a surface point.
+
+        Parameters
+        ----------
+        vertex : int
+            Its number.
+        """
         h = int(self._halfedge_from[vertex])
         weights = [0.0, 0.0, 0.0]
         weights[h % 3] = 1.0
