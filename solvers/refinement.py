@@ -19,7 +19,8 @@ from solvers.surface import TriSurface, barycentric
 from solvers.triangulation import FloatArray, IntArray
 
 SNAP = 1e-5
-"""Distance from an edge or vertex, in edge lengths, below which a point is moved onto it.
+"""Distance from an edge or vertex below which a point is moved onto it, in longest edges of the
+triangle.
 
 Nearer ones would make triangles too flat for their angles to be known in double precision.
 """
@@ -252,14 +253,16 @@ def _subdivided(
 def _snapped(weights: FloatArray, corners: FloatArray) -> FloatArray:
     """Return the weights of a point of a triangle (3, 3), 0 for sides that it is next to."""
     sides = corners[[2, 0, 1]] - corners[[1, 2, 0]]  # opposite each corner
+    lengths = np.linalg.norm(sides, axis=1)
     double_area = np.linalg.norm(np.cross(sides[0], sides[1]))
-    distance = weights * double_area / (sides**2).sum(axis=1)
+    distance = weights * double_area / (lengths * lengths.max())
     nearest = int(np.argmin(distance))
     if distance[nearest] > SNAP:
         return weights
     tail, head = (nearest + 1) % 3, (nearest + 2) % 3
-    along = ((weights @ corners - corners[tail]) @ sides[nearest]) / (sides[nearest] ** 2).sum()
-    along = 0.0 if along < SNAP else 1.0 if along > 1 - SNAP else along
+    along = ((weights @ corners - corners[tail]) @ sides[nearest]) / lengths[nearest] ** 2
+    margin = min(SNAP * lengths.max() / lengths[nearest], 0.5)
+    along = 0.0 if along <= margin else 1.0 if along >= 1 - margin else along
     on_side = np.zeros(3)
     on_side[tail], on_side[head] = 1 - along, along
     return on_side

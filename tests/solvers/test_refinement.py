@@ -80,6 +80,18 @@ def test_it_does_not_matter_in_which_triangle_a_point_on_a_vertex_or_edge_is_giv
             assert places[0] == pytest.approx(places[1], abs=1e-7)
 
 
+def test_points_close_together_leave_no_triangle_without_area() -> None:
+    """The second point lies on a short side that the first has made, next to its end."""
+    surface = BUILTIN["square"](n=2)
+    corner, middle = np.array([1.0, 0.0, 0.0]), np.full(3, 1 / 3)
+    for gap in (1e-2, 1e-3, 1e-4):
+        first = corner + gap * (middle - corner)
+        second = corner + 1e-4 * (first - corner)
+        points = [SurfacePoint(0, (p[0], p[1], p[2])) for p in (first, second)]
+        refined = refine_at(surface, points, 0).surface
+        TriSurface(refined.vertices, refined.faces)
+
+
 def test_only_the_neighbourhood_changes() -> None:
     surface = BUILTIN["torus"](n=36)
     refinement = refine_at(surface, [SurfacePoint(0, (0.3, 0.3, 0.4))], 3)
