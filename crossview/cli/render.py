@@ -10,6 +10,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from crossview import gallery as cases
+from crossview.case import Case
 from crossview.cli.options import Flag, Output, chosen_case
 from crossview.cli.terminal import say, watch
 from crossview.pipeline import Solution, solve_case
@@ -65,6 +66,7 @@ def render(
     from crossview.export.figures import check
     from crossview.export.figures import render as draw
 
+    whole = chosen_case(case, method, repair=repair)
     found = chosen_case(case, method, component, repair)
     if found.options.component == "all":
         raise CrossviewError("a picture shows one component", "all", "name one with --component")
@@ -73,7 +75,7 @@ def render(
     check(target, layers=shown, size=pixels, scale=scale, camera=camera)
 
     def work(path: Path) -> Generator[Progress, None, Solution]:
-        (solution,) = yield from solve_case(found)
+        solution = yield from _component_of(whole, found)
         yield Progress("drawing", 0.9)
         draw(
             solution,
@@ -90,6 +92,22 @@ def render(
         watch(work(staging / target.name), quiet)
     if not quiet:
         say(f"wrote {output}")
+
+
+def _component_of(whole: Case, found: Case) -> Generator[Progress, None, Solution]:
+    """Solve the component that is to be drawn.
+
+    A case of all components may have singularities on others, so all are solved.
+    """
+    if whole.options.component != "all":
+        (solution,) = yield from solve_case(found)
+        return solution
+    solutions = yield from solve_case(whole)
+    number = found.options.component
+    number = number if isinstance(number, int) else 0  # the largest
+    if number >= len(solutions):
+        raise CrossviewError(f"there is no component {number}", f"of {len(solutions)}")
+    return solutions[number]
 
 
 def gallery(

@@ -268,6 +268,16 @@ def test_a_surface_in_several_components(crossview, two_pieces, tmp_path, case_f
         assert json.loads(written) == ran.json[number]
 
 
+def test_one_component_of_a_case_of_all_is_drawn(crossview, two_pieces, tmp_path, case_file):
+    cube = [((10 + x, y, z), 3) for x in (-0.6, 0.6) for y in (-0.6, 0.6) for z in (-0.6, 0.6)]
+    case = case_file(str(two_pieces), cube, options={"component": "all"})
+    ran = crossview("render", case, "-o", tmp_path / "out" / "a.png", "--component", "2")
+    refused(ran, tmp_path, "there is no component 2 (of 2)")
+    options = ["--component", "1", "--size", "200x200"]
+    assert crossview("render", case, "-o", tmp_path / "a.png", *options).status == 0
+    assert (tmp_path / "a.png").stat().st_size > 0
+
+
 def test_stl_is_merged_with_a_note(crossview, tmp_path):
     made = square(8)
     path = tmp_path / "square.stl"
