@@ -22,6 +22,9 @@ from solvers.primitives import BUILTIN
 MOST_REFINE = 10
 """Levels of refinement after which triangles at a singularity are a thousandth of the others."""
 
+MOST_VALENCE = 100
+"""Quads that meet in one vertex; more is a slip of the pen."""
+
 
 def read_case(root: JsonField, base: Path) -> dict[str, Any]:
     """The arguments of the `Case` at the root of a JSON document, its paths relative to `base`.
@@ -76,7 +79,7 @@ def _singularity(entry: JsonField) -> PlacedSingularity:
     members = entry.object(["position", "valence"], ["locked"])
     return PlacedSingularity(
         members["position"].position(),
-        members["valence"].integer("valence", least=1),
+        members["valence"].integer("valence", 1, MOST_VALENCE),
         "locked" in members and members["locked"].boolean(),
     )
 
@@ -89,7 +92,7 @@ def _corners(entry: JsonField) -> tuple[PlacedCorner, ...] | None:
     corners = []
     for item in entry.items():
         members = item.object(["position", "index"], [])
-        index = members["index"].integer("corner index", most=1)
+        index = members["index"].integer("corner index", 2 - MOST_VALENCE, 1)
         corners.append(PlacedCorner(members["position"].position(), index))
     return tuple(corners)
 

@@ -96,6 +96,8 @@ def test_a_file_called_like_a_builtin_is_the_file(tmp_path):
         ({"singularities": [{"position": [0, 0, 1e300], "valence": 3}]}, r"below 1e.*ion\[2\]"),
         ({"singularities": [{"position": [0, 0, "1"], "valence": 3}]}, r"number.*position\[2\]"),
         ({"singularities": [{"position": [0, 0, 0], "valence": 0}]}, r"at least 1, found 0"),
+        ({"singularities": [{"position": [0, 0, 0], "valence": 10**18}]}, r"at most 100, found 1"),
+        ({"corners": [{"position": [0, 0, 0], "index": -(10**18)}]}, r"at least -98, found -1"),
         ({"singularities": [{"position": [0, 0, 0], "valence": 3.5}]}, r"whole number.*3\.5"),
         ({"singularities": [{"position": [0, 0, 0], "valence": True}]}, "number, found true"),
         ({"singularities": [{"position": [0] * 3, "valence": 3, "locked": 1}]}, "true or false"),
