@@ -8,6 +8,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from solvers.isotropic import IsotropicSolver
+from solvers.triangulation import next_halfedge
 from tests.solvers.suite import SURFACES, random_configuration
 
 
@@ -30,9 +31,8 @@ def test_cutting_leaves_one_disk(name: str, seed: int) -> None:
     assert connected_components(graph, directed=False)[0] == 1
     h = t.edge_halfedges[inner & ~is_cut]
     g = t.twin[h]
-    following = lambda k: k + 1 - 3 * (k % 3 == 2)  # noqa: E731
-    rows = np.concatenate([h, following(h)])
-    columns = np.concatenate([following(g), g])
+    rows = np.concatenate([h, next_halfedge(h)])
+    columns = np.concatenate([next_halfedge(g), g])
     corners = coo_array((np.ones(len(rows)), (rows, columns)), shape=(len(t.twin),) * 2)
     n_vertices = connected_components(corners, directed=False)[0]
     n_edges = inner.sum() + is_cut.sum() + (~inner).sum()
