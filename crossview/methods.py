@@ -14,7 +14,7 @@ from solvers.crossfield import CrossField
 from solvers.discretization import QUARTER
 from solvers.integrable import alternating_field, anisotropic_field
 from solvers.isotropic import IsotropicSolver
-from solvers.progress import Progress
+from solvers.progress import Progress, relayed
 from solvers.refinement import refine_everywhere
 from solvers.singularities import Singularity
 from solvers.triangulation import FloatArray
@@ -113,10 +113,5 @@ def _same_turns(
 
 def _unseen(computation: Integration) -> Integration:
     """The same computation, its fields not those that are being solved for."""
-    while True:
-        try:
-            step = next(computation)
-        except StopIteration as stop:
-            result: IntegratedField = stop.value
-            return result
-        yield Progress("verifying on a refined mesh", step.fraction)
+    stage = "verifying on a refined mesh"
+    return relayed(computation, lambda step: Progress(stage, step.fraction))

@@ -19,7 +19,7 @@ from solvers.aligned import IntegratedField
 from solvers.crossfield import CrossField
 from solvers.errors import CrossviewError
 from solvers.integrable import FieldStep
-from solvers.progress import Progress
+from solvers.progress import Progress, relayed
 from solvers.refinement import refine_at
 from solvers.singularities import require_budget
 from solvers.triangulation import FloatArray
@@ -194,14 +194,13 @@ def _between(
 ) -> Generator[Progress, None, T]:
     """The same computation, its progress from `start` to `end` and never back."""
     reached = start
-    while True:
-        try:
-            step = next(computation)
-        except StopIteration as stop:
-            result: T = stop.value
-            return result
+
+    def show(step: Progress) -> Progress:
+        nonlocal reached
         reached = max(reached, start + (end - start) * step.fraction)
-        yield replace(step, fraction=reached)
+        return replace(step, fraction=reached)
+
+    return relayed(computation, show)
 
 
 @contextmanager

@@ -13,7 +13,7 @@ from solvers.alternating import alternate
 from solvers.anisotropic import Iterate, MinimumNormNewton, NewtonStep
 from solvers.crossfield import Convergence, CrossField
 from solvers.errors import CrossviewError
-from solvers.progress import Progress
+from solvers.progress import Progress, relayed
 from solvers.surface import TriSurface
 from solvers.triangulation import FloatArray
 
@@ -145,17 +145,16 @@ def _shown(
 ) -> Iteration:
     """Run an iteration, showing each step as a field."""
     energies = list(before) or [aligned.integrability.residual(aligned.start).energy]
-    while True:
-        try:
-            step = next(iteration)
-        except StopIteration as stop:
-            end: Iterate = stop.value
-            return end
-        if isinstance(step, NewtonStep):
-            energies.append(step.energy)
-            convergence = Convergence(tuple(energies), converged=False)
-            so_far = IntegratedField(aligned, step.x, method, convergence)
-            yield FieldStep(step.stage, step.fraction, convergence.energies, so_far)
+
+    def show(step: Progress) -> Progress | None:
+        if not isinstance(step, NewtonStep):
+            return None
+        energies.append(step.energy)
+        convergence = Convergence(tuple(energies), converged=False)
+        so_far = IntegratedField(aligned, step.x, method, convergence)
+        return FieldStep(step.stage, step.fraction, convergence.energies, so_far)
+
+    return (yield from relayed(iteration, show))
 
 
 def _log_targets(field: CrossField, sizes: npt.ArrayLike) -> FloatArray:

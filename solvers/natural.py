@@ -13,7 +13,7 @@ On the boundary the cross is aligned. Singularities are vertices the cross turns
 
 from __future__ import annotations
 
-from collections.abc import Generator
+from collections.abc import Callable, Generator
 
 import numpy as np
 import numpy.typing as npt
@@ -115,26 +115,28 @@ class _Crosses:
 
     def _diffuse(self, z: ComplexArray, time: float) -> Generator[Progress, None, ComplexArray]:
         step = _Hermitian(self.energy * time + diags_array(self.mass), self.free)
-        for count in range(ITERATIONS):
-            after = _unit(step.solve(self.mass * z, z))
-            change = np.sqrt(np.average(np.abs(after - z) ** 2, weights=self.mass))
-            z = after
-            yield Progress("MBO", count / ITERATIONS)
-            if change < STILL:
-                break
-        return z
+        return self._until_still(z, lambda z: _unit(step.solve(self.mass * z, z)), "MBO")
 
     def ginzburg_landau(self, rng: np.random.Generator) -> Generator[Progress, None, ComplexArray]:
         z = yield from self._diffuse(self.random(rng), 0.05 * self.size)
         width = max(0.05 * np.sqrt(self.size), 1.5 * float(self.t.lengths.mean()))
         pull = 3.0 / width**2  # makes the step stable for |z| <= 1
         step = _Hermitian(self.energy + diags_array(pull * self.mass), self.free)
+
+        def descend(z: ComplexArray) -> ComplexArray:
+            return step.solve(self.mass * (pull + (1 - np.abs(z) ** 2) / width**2) * z, z)
+
+        return (yield from self._until_still(z, descend, "Ginzburg-Landau"))
+
+    def _until_still(
+        self, z: ComplexArray, step: Callable[[ComplexArray], ComplexArray], stage: str
+    ) -> Generator[Progress, None, ComplexArray]:
+        """Repeat a step until the crosses hardly change."""
         for count in range(ITERATIONS):
-            force = self.mass * (pull + (1 - np.abs(z) ** 2) / width**2) * z
-            after = step.solve(force, z)
+            after = step(z)
             change = np.sqrt(np.average(np.abs(after - z) ** 2, weights=self.mass))
             z = after
-            yield Progress("Ginzburg-Landau", count / ITERATIONS)
+            yield Progress(stage, count / ITERATIONS)
             if change < STILL:
                 break
         return z

@@ -46,3 +46,26 @@ def run(
             return result
         if on_progress is not None:
             on_progress(step)
+
+
+def relayed(
+    computation: Generator[Progress, None, T], show: Callable[[Progress], Progress | None]
+) -> Generator[Progress, None, T]:
+    """Run a computation as part of another, which shows its steps in its own way.
+
+    Parameters
+    ----------
+    computation : generator of Progress
+        What to run; its result is returned.
+    show : callable
+        Takes each step to the one to yield in its place; None yields none.
+    """
+    while True:
+        try:
+            step = next(computation)
+        except StopIteration as stop:
+            result: T = stop.value
+            return result
+        shown = show(step)
+        if shown is not None:
+            yield shown

@@ -12,7 +12,7 @@ from crossview.session.live import LiveBase, with_directions
 from solvers.aligned import AlignedField, IntegratedField
 from solvers.crossfield import CrossField
 from solvers.integrable import FieldStep
-from solvers.progress import Progress
+from solvers.progress import Progress, relayed
 
 DRAWN_EVERY = 0.2
 """Least time between two iterates that are drawn, seconds."""
@@ -66,24 +66,22 @@ class MethodSolver:
 
     def solve(self, problem: Problem) -> Generator[Progress, None, Solved]:
         """Solve with refinement by the problem's method; yields an `Iterate` per iteration."""
-        computation = self._pipeline.solve(problem)
         base: LiveBase | None = None
         drawn = -DRAWN_EVERY
-        while True:
-            try:
-                step = next(computation)
-            except StopIteration as end:
-                return self._ready(end.value)
+
+        def show(step: Progress) -> Progress:
+            nonlocal base, drawn
             if not isinstance(step, FieldStep):
-                yield step
-                continue
+                return step
             base = base or self._base(problem)
             field = None
             if time.monotonic() - drawn >= DRAWN_EVERY:
                 field = with_directions(step.so_far.field)
                 drawn = time.monotonic()
             start = self._start_of(step.so_far.aligned)
-            yield Iterate(step.stage, step.fraction, step, base, start, field)
+            return Iterate(step.stage, step.fraction, step, base, start, field)
+
+        return self._ready((yield from relayed(self._pipeline.solve(problem), show)))
 
     def keep(self, step: FieldStep) -> Generator[Progress, None, Solved]:
         """Make what there is of a stopped `solve` its result, not converged."""

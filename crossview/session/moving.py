@@ -13,7 +13,7 @@ from crossview.session.live import LiveBase, with_directions
 from solvers.crossfield import CrossField
 from solvers.errors import CrossviewError
 from solvers.natural import natural_singularities
-from solvers.progress import Progress
+from solvers.progress import Progress, relayed
 from solvers.singularities import Singularity
 from solvers.triangulation import FloatArray
 from solvers.validity import Moved, make_valid
@@ -66,16 +66,15 @@ def move_to_validity(
     computation = make_valid(
         document.surface, document.singularities, problem.corners, problem.options.refine
     )
-    while True:
-        try:
-            step = next(computation)
-        except StopIteration as end:
-            moved: Moved = end.value
-            return ReplaceSingularities(moved.singularities, "make valid")
-        if isinstance(step, Moved):
-            field = _field(base, step.singularities)
-            step = Moving(step.stage, step.fraction, step.singularities, step.defects, field)
-        yield step
+
+    def show(step: Progress) -> Progress:
+        if not isinstance(step, Moved):
+            return step
+        field = _field(base, step.singularities)
+        return Moving(step.stage, step.fraction, step.singularities, step.defects, field)
+
+    moved = yield from relayed(computation, show)
+    return ReplaceSingularities(moved.singularities, "make valid")
 
 
 def place_natural(document: Document, method: str) -> Generator[Progress, None, Command]:
@@ -97,12 +96,12 @@ def _field(base: LiveBase | None, singularities: tuple[Singularity, ...]) -> Cro
 
 def _paced(computation: Generator[Progress, None, T]) -> Generator[Progress, None, T]:
     told = -TOLD_EVERY
-    while True:
-        try:
-            step = next(computation)
-        except StopIteration as end:
-            result: T = end.value
-            return result
-        if time.monotonic() - told >= TOLD_EVERY:
-            told = time.monotonic()
-            yield step
+
+    def show(step: Progress) -> Progress | None:
+        nonlocal told
+        if time.monotonic() - told < TOLD_EVERY:
+            return None
+        told = time.monotonic()
+        return step
+
+    return relayed(computation, show)
