@@ -107,10 +107,8 @@ class Holonomy:
             changes defect i by (pi/2) k_j grad Z_i . d.
         """
         t, at = self._discretization.triangulation, self._discretization.locate(points)
-        p = t.corner_positions[at.face]
-        opposite = p[:, [2, 0, 1]] - p[:, [1, 2, 0]]
-        sums = np.einsum("cki,kij->ckj", self._corner_values[:, at.face], opposite)
-        gradient = (1j * sums[..., 0] - sums[..., 1]) / (2 * t.areas[at.face])
+        flat = np.einsum("cki,kid->dck", self._corner_values[:, at.face], t.hat_gradients[at.face])
+        gradient = flat[0] + 1j * flat[1]
         gradient *= np.exp(-1j * at.turn)
         return np.stack([gradient.real, gradient.imag], axis=2)
 

@@ -129,18 +129,9 @@ class Integrability:
         return np.concatenate([t.faces, s_number[t.faces], delta.reshape(-1, 3)], axis=1)
 
     @cached_property
-    def hat_gradients(self) -> FloatArray:
-        """(m, 3, 2) gradients of the corners' hat functions in each face's frame."""
-        t = self.triangulation
-        p = t.corner_positions.transpose(1, 2, 0)
-        opposite = p[[2, 0, 1]] - p[[1, 2, 0]]
-        turned = np.stack([-opposite[:, 1], opposite[:, 0]], axis=1)
-        return np.asarray((turned / (2 * t.areas)).transpose(2, 0, 1))
-
-    @cached_property
     def hat_stiffness(self) -> FloatArray:
         """(m, 3, 3) P1 stiffness matrix of each face."""
-        x, y = self.hat_gradients.transpose(2, 1, 0)
+        x, y = self.triangulation.hat_gradients.transpose(2, 1, 0)
         products = x[:, None] * x[None] + y[:, None] * y[None]
         return np.asarray((self.triangulation.areas * products).transpose(2, 0, 1))
 
@@ -170,7 +161,7 @@ class Integrability:
 
     def _along(self, cos: FloatArray, sin: FloatArray) -> tuple[Pair, Pair]:
         """Return derivatives (3, m) along u and v of the hat functions and of the edges'."""
-        x, y = self.hat_gradients.transpose(2, 1, 0)
+        x, y = self.triangulation.hat_gradients.transpose(2, 1, 0)
         hat = cos * x + sin * y, cos * y - sin * x
         # The function of halfedge i is 1 - 2 times the hat function of corner i + 2.
         return hat, (-2.0 * hat[0][[2, 0, 1]], -2.0 * hat[1][[2, 0, 1]])

@@ -164,6 +164,17 @@ class IntrinsicTriangulation:
         full[self.tail[self.boundary_halfedges]] = np.pi
         return np.asarray(full - total)
 
+    @cached_property
+    def hat_gradients(self) -> FloatArray:
+        """(m, 3, 2) gradients of the corners' hat functions in each face's frame.
+
+        In memory the faces lie along the fast axis, so that each component is one run.
+        """
+        p = self.corner_positions.transpose(1, 2, 0)
+        opposite = p[[2, 0, 1]] - p[[1, 2, 0]]
+        turned = np.stack([-opposite[:, 1], opposite[:, 0]], axis=1)
+        return np.asarray((turned / (2 * self.areas)).transpose(2, 0, 1))
+
     def gradients(self, values: FloatArray) -> FloatArray:
         """Return the gradient of piecewise linear functions in each face's frame.
 
@@ -176,8 +187,4 @@ class IntrinsicTriangulation:
         -------
         (m, 2) float array
         """
-        p = self.corner_positions
-        opposite = p[:, [2, 0, 1]] - p[:, [1, 2, 0]]
-        sums = np.einsum("mi,mij->mj", values, opposite)
-        rotated = np.stack([-sums[:, 1], sums[:, 0]], axis=1)
-        return np.asarray(rotated / (2.0 * self.areas)[:, None])
+        return np.einsum("mi,mid->md", values, self.hat_gradients)
