@@ -1,0 +1,78 @@
+"""A T-mesh: rectangles glued along arcs, some of which end in the middle of another's side."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from solvers.triangulation import BoolArray, FloatArray, IntArray
+
+
+@dataclass(frozen=True, eq=False)
+class TMesh:
+    """Rectangles, the arcs between them, and the nodes where arcs meet.
+
+    A half-arc is ``2 * arc``, or ``2 * arc + 1`` for the arc run backwards. A rectangle may be
+    glued to itself: one makes a torus or an annulus.
+
+    Parameters
+    ----------
+    arcs : (A, 2) int array
+        The nodes each arc runs from and to.
+    lengths : (A,) float array
+        Length of each arc in the seamless map.
+    arc_on_boundary : (A,) bool array
+        Whether an arc lies on the boundary of the surface.
+    node_valence : (N,) int array
+        Arcs that leave each node; an inner node with three is a T-junction or a valence 3.
+    critical : (N,) bool array
+        Singularities and corners: the nodes that quantisation has to keep apart.
+    node_on_boundary : (N,) bool array
+        Whether a node lies on the boundary of the surface.
+    side_offsets : (4 R + 1,) int array
+        Side j of rectangle r is ``side_halfarcs[side_offsets[4 r + j]:side_offsets[4 r + j + 1]]``.
+    side_halfarcs : (K,) int array
+        Counter-clockwise, the rectangle on their left.
+    """
+
+    arcs: IntArray
+    lengths: FloatArray
+    arc_on_boundary: BoolArray
+    node_valence: IntArray
+    critical: BoolArray
+    node_on_boundary: BoolArray
+    side_offsets: IntArray
+    side_halfarcs: IntArray
+
+    @property
+    def n_arcs(self) -> int:
+        """Number of arcs."""
+        return len(self.arcs)
+
+    @property
+    def n_nodes(self) -> int:
+        """Number of nodes."""
+        return len(self.node_valence)
+
+    @property
+    def n_rectangles(self) -> int:
+        """Number of rectangles."""
+        return len(self.side_offsets) // 4
+
+    def side(self, rectangle: int, number: int) -> IntArray:
+        """Return the half-arcs of one side (0 to 3) of a rectangle."""
+        at = 4 * rectangle + number
+        return self.side_halfarcs[self.side_offsets[at] : self.side_offsets[at + 1]]
+
+    def side_totals(self, values: FloatArray) -> FloatArray:
+        """Return the sums (R, 4) over the sides of rectangles of values (A,) of arcs."""
+        running = np.concatenate([[0.0], np.cumsum(values[self.side_halfarcs // 2])])
+        return np.asarray(np.diff(running[self.side_offsets])).reshape(-1, 4)
+
+    @cached_property
+    def area(self) -> float:
+        """Area of all rectangles in the map."""
+        sides = self.side_totals(self.lengths)
+        return float((sides[:, 0] * sides[:, 1]).sum())
