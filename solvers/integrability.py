@@ -7,7 +7,8 @@ In each triangle, with flat frame, u and v at the barycentre (paper, equation in
 
 Unknowns, all single-valued on the uncut surface: a = -(H1 + H2) / 2 at vertices; at vertices also
 s = (H2 - H1) / 2, up to the sign of the sheet, for u and v swap over odd quarter turns; and delta,
-the turn of the crosses against the initial field, at inner edge midpoints (Crouzeix-Raviart).
+the turn of the crosses against the initial field, at inner edge midpoints (Crouzeix-Raviart). On
+boundary and feature edges delta is 0: there the initial field is aligned already.
 """
 
 from __future__ import annotations
@@ -23,9 +24,11 @@ from scipy.sparse.csgraph import connected_components
 from solvers.assembly import ElementAssembly
 from solvers.discretization import QUARTER, Discretization
 from solvers.operators import corner_midpoint_offsets
-from solvers.triangulation import FloatArray, IntArray, next_halfedge
+from solvers.triangulation import BoolArray, FloatArray, IntArray, next_halfedge
 
 Pair = tuple[FloatArray, FloatArray]
+
+NO_FEATURES = np.empty(0, dtype=np.int64)
 
 
 def norm(values: FloatArray) -> float:
@@ -83,9 +86,17 @@ class Integrability:
         Corner values of the (multiple-valued) function whose conjugate the initial field is.
     quarter_turns : (3 m,) int array, optional
         As the attribute; by default the nearest to the initial field's turns over each edge.
+    features : (k,) int array, optional
+        As the attribute; by default none.
+    turned : (m, 3) float array, optional
+        What to turn that conjugate by at the midpoint of each halfedge (Crouzeix-Raviart,
+        single-valued), radians; by default nothing.
 
     Attributes
     ----------
+    features : (k,) int array
+        One halfedge of each edge inside the surface that the initial field is aligned with and
+        that every field is to stay aligned with.
     theta : (m,) float array
         The initial field at the barycentres, radians.
     offsets : (m, 3) float array
@@ -103,13 +114,22 @@ class Integrability:
         discretization: Discretization,
         conjugate: FloatArray,
         quarter_turns: IntArray | None = None,
+        features: IntArray = NO_FEATURES,
+        turned: FloatArray | None = None,
     ) -> None:
         self.discretization = discretization
+        self.features = features
         self.triangulation = t = discretization.triangulation
         self.offsets = corner_midpoint_offsets(t.cotangents, conjugate)
         self.theta = discretization.walk(self.offsets)
         gradient = t.gradients(conjugate)
         self._turning = np.stack([-gradient[:, 1], gradient[:, 0]], axis=1)
+        if turned is not None:
+            mean = turned.mean(axis=1)
+            self.theta = self.theta + mean
+            self.offsets = self.offsets + turned - mean[:, None]
+            # The function of halfedge i is 1 - 2 times the hat function of corner i + 2.
+            self._turning += t.gradients(-2.0 * turned[:, [1, 2, 0]])
         midpoint = np.repeat(self.theta, 3) + self.offsets.reshape(-1)
         across = np.where(t.twin >= 0, midpoint[t.twin] - t.transport, midpoint)
         nearest = np.rint((midpoint - across) / QUARTER).astype(np.int64)
@@ -123,10 +143,19 @@ class Integrability:
         doubled = np.zeros(t.n_vertices, dtype=bool)
         doubled[t.faces[self.sheet != 0]] = True
         s_number = np.where(doubled, t.n_vertices + np.cumsum(doubled) - 1, -1)
-        inner = t.edge_halfedges[t.twin[t.edge_halfedges] >= 0]
+        inner = t.edge_halfedges[~self.aligned_edges]
         delta = np.full(len(t.twin), -1, dtype=np.int64)
         delta[inner] = delta[t.twin[inner]] = t.n_vertices + doubled.sum() + np.arange(len(inner))
         return np.concatenate([t.faces, s_number[t.faces], delta.reshape(-1, 3)], axis=1)
+
+    @cached_property
+    def aligned_edges(self) -> BoolArray:
+        """(ne,) whether each edge is one to stay aligned with: of the boundary or a feature."""
+        t = self.triangulation
+        on_feature = np.zeros(len(t.twin), dtype=bool)
+        on_feature[self.features] = on_feature[t.twin[self.features]] = True
+        h = t.edge_halfedges
+        return (t.twin[h] < 0) | on_feature[h]
 
     @cached_property
     def hat_stiffness(self) -> FloatArray:

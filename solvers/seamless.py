@@ -1,10 +1,10 @@
 """The seamless map: every edge's image in the plane, consistent up to whole quarter turns.
 
 The unknown is one vector for each edge, in the frame of its triangle's cross; the other side sees
-it turned by the matching. The three vectors of a triangle close, boundary edges have no component
-across, and the vectors stay as near as possible to what the field asks for. Triangles that come out
-turned over (at singularities) are asked for the image that their mean cross and sizes give, which
-is not, with more weight, until none is.
+it turned by the matching. The three vectors of a triangle close, edges of the boundary and of
+features have no component across, and the vectors stay as near as possible to what the field asks
+for. Triangles that come out turned over (at singularities) are asked for the image that their mean
+cross and sizes give, which is not, with more weight, until none is.
 """
 
 from __future__ import annotations
@@ -185,10 +185,10 @@ def _closing(integrability: Integrability, spread: csc_array) -> csc_array:
 
 
 def _free(integrability: Integrability, edges: IntArray) -> np.ndarray:
-    """Return which components (ne, 2) are free: on the boundary only the one along it."""
+    """Return which components (ne, 2) are free: on aligned edges only the one along them."""
     i, t = integrability, integrability.triangulation
     free = np.ones((len(edges), 2), dtype=bool)
-    border = t.twin[edges] < 0
+    border = i.aligned_edges
     h = edges[border]
     angle = t.directions[h] - (i.theta[:, None] + i.offsets).reshape(-1)[h]
     along_v = np.rint(angle / (np.pi / 2)).astype(int) % 2
