@@ -251,7 +251,7 @@ class TriSurface:
         to_centre = np.linalg.norm(self.barycentres - x, axis=1)
         reach = self.triangulation.lengths.max(axis=1)
         candidates = np.flatnonzero(to_centre - reach <= (to_centre + reach).min())
-        weights = _closest_barycentric(self.vertices[self.faces[candidates]], x)
+        weights = closest_barycentric(self.vertices[self.faces[candidates]], x)
         places = np.einsum("ki,kij->kj", weights, self.vertices[self.faces[candidates]])
         best = int(np.argmin(np.linalg.norm(places - x, axis=1)))
         w = weights[best]
@@ -283,8 +283,21 @@ def barycentric(triangles: FloatArray, position: FloatArray) -> FloatArray:
     return np.stack([1 - second - third, second, third], axis=1)
 
 
-def _closest_barycentric(corners: FloatArray, x: FloatArray) -> FloatArray:
-    """Return (k, 3) weights of the point of each triangle (k, 3, 3) nearest to `x`."""
+def closest_barycentric(corners: FloatArray, x: FloatArray) -> FloatArray:
+    """Return the weights of the point of each triangle that is nearest to a place.
+
+    Parameters
+    ----------
+    corners : (k, 3, 3) float array
+        Corners of triangles.
+    x : (3,) or (k, 3) float array
+        The place, or one for each triangle.
+
+    Returns
+    -------
+    (k, 3) float array
+        Non-negative weights with sum 1; zeros are exact where the point lies on the border.
+    """
     best = barycentric(corners, x)
     distance = np.where((best >= 0).all(axis=1), 0.0, np.inf)
     for i in range(3):
