@@ -22,6 +22,11 @@ def next_halfedge(h: IntArray) -> IntArray:
     return h + 1 - 3 * (h % 3 == 2)
 
 
+def previous_halfedge(h: IntArray) -> IntArray:
+    """Return the halfedge before `h` in its face."""
+    return h - 1 + 3 * (h % 3 == 0)
+
+
 def wrap(angle: FloatArray, period: float) -> FloatArray:
     """Return `angle` modulo `period`, in (-period / 2, period / 2]."""
     return np.asarray(angle - period * np.ceil(angle / period - 0.5))
