@@ -1,0 +1,199 @@
+"""Whole numbers of quads for the arcs of a T-mesh, by mixed-integer programming.
+
+Opposite sides of every rectangle get the same number, and the arcs stay as near as possible to
+their lengths in units of the edge length, in the sum of absolute deviations. What is left without
+integrality is a minimum-cost flow through the rectangles, so branching has little to do.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import Bounds, LinearConstraint, milp
+from scipy.sparse import coo_array, csr_array, diags_array, eye_array, hstack, vstack
+
+from solvers.errors import CrossviewError, SolveError
+from solvers.tmesh import TMesh
+from solvers.triangulation import FloatArray, IntArray
+
+MOST_QUADS = 5_000_000
+"""Finer meshes are not made."""
+
+NEAR_ENOUGH = 0.01
+"""Relative distance from a wanted number of quads at which looking further ends."""
+
+MOST_TRIALS = 8
+"""Programs solved at most for a wanted number of quads."""
+
+
+@dataclass(frozen=True, eq=False)
+class Quantization:
+    """Whole numbers of quads along the arcs of a T-mesh.
+
+    Parameters
+    ----------
+    counts : (A,) int array
+        Edges of quads along each arc.
+    edge_length : float
+        What was asked for, in units of the map.
+    n_quads : int
+        Number of quads that the counts give.
+    deviation : float
+        Sum over the arcs of the distance of the count from length / edge length.
+    optimal : bool
+        False if time was up before the counts were known to be the best.
+    """
+
+    counts: IntArray
+    edge_length: float
+    n_quads: int
+    deviation: float
+    optimal: bool
+
+
+def quantize(tmesh: TMesh, edge_length: float, *, time_limit: float = 10.0) -> Quantization:
+    """Return the counts nearest to the arcs' lengths, at least 1 each.
+
+    Parameters
+    ----------
+    tmesh : TMesh
+        The rectangles.
+    edge_length : float
+        Wanted length of the quads' edges, in units of the map.
+    time_limit : float, optional
+        Seconds after which the best counts found are taken.
+
+    Raises
+    ------
+    CrossviewError
+        If the edge length is not positive, or makes more than `MOST_QUADS` quads.
+    SolveError
+        If time was up before any counts were found.
+    """
+    if not np.isfinite(edge_length) or edge_length <= 0:
+        raise CrossviewError(f"the edge length must be a positive number, not {edge_length!r}")
+    if tmesh.area / edge_length**2 > MOST_QUADS:
+        raise CrossviewError(
+            f"edges of {edge_length:.3g} make {tmesh.area / edge_length**2:.3g} quads",
+            f"at most {MOST_QUADS:.3g}",
+            "choose longer edges",
+        )
+    wanted = tmesh.lengths / edge_length
+    counts, optimal = _program(wanted, balances(tmesh), least_counts(tmesh), time_limit)
+    return Quantization(
+        counts,
+        edge_length,
+        number_of_quads(tmesh, counts),
+        float(np.abs(counts - wanted).sum()),
+        optimal,
+    )
+
+
+def quantize_to(tmesh: TMesh, n_quads: int, *, time_limit: float = 10.0) -> Quantization:
+    """Return the counts whose number of quads is nearest to a wanted one, by a few programs.
+
+    Parameters
+    ----------
+    tmesh : TMesh
+        The rectangles.
+    n_quads : int
+        Wanted number of quads.
+    time_limit : float, optional
+        Seconds for each program.
+
+    Raises
+    ------
+    CrossviewError
+        If fewer than one or more than `MOST_QUADS` quads are wanted.
+    """
+    if not 1 <= n_quads <= MOST_QUADS:
+        raise CrossviewError(
+            f"cannot make {n_quads} quads", "", f"ask for a number from 1 to {MOST_QUADS}"
+        )
+    length = np.sqrt(tmesh.area / n_quads)
+    low, high = 0.0, np.inf
+    best = found = quantize(tmesh, float(length), time_limit=time_limit)
+    for _ in range(MOST_TRIALS - 1):
+        if abs(best.n_quads - n_quads) <= NEAR_ENOUGH * n_quads:
+            break
+        low, high = (length, high) if found.n_quads > n_quads else (low, length)
+        # The number goes with the inverse square; where that leads out of the bounds, halve.
+        length = length * np.sqrt(found.n_quads / n_quads)
+        if length <= low or length >= high:
+            length = np.sqrt(low * high)
+        found = quantize(tmesh, float(length), time_limit=time_limit)
+        if abs(found.n_quads - n_quads) < abs(best.n_quads - n_quads):
+            best = found
+    return best
+
+
+def number_of_quads(tmesh: TMesh, counts: IntArray) -> int:
+    """Return how many quads fill the rectangles, given the counts (A,) of the arcs."""
+    sides = np.rint(tmesh.side_totals(counts.astype(float)))
+    return int((sides[:, 0] * sides[:, 1]).sum())
+
+
+def balances(tmesh: TMesh) -> csr_array:
+    """Return the matrix (., A) that takes counts to differences of opposite sides; no zero rows.
+
+    Parameters
+    ----------
+    tmesh : TMesh
+        The rectangles.
+    """
+    side = np.repeat(np.arange(4 * tmesh.n_rectangles), np.diff(tmesh.side_offsets))
+    row = 2 * (side // 4) + side % 2
+    sign = np.where(side % 4 < 2, 1, -1)
+    shape = (2 * tmesh.n_rectangles, tmesh.n_arcs)
+    matrix = csr_array(coo_array((sign, (row, tmesh.side_halfarcs // 2)), shape=shape))
+    matrix.eliminate_zeros()
+    return matrix[np.flatnonzero(np.diff(matrix.indptr))]
+
+
+def least_counts(tmesh: TMesh) -> IntArray:
+    """Return the smallest counts (A,) that leave no two edges with the same ends.
+
+    Parameters
+    ----------
+    tmesh : TMesh
+        The rectangles.
+    """
+    ends = np.sort(tmesh.arcs, axis=1)
+    _, which, times = np.unique(ends, axis=0, return_inverse=True, return_counts=True)
+    least = np.where(times[which.reshape(-1)] > 1, 2, 1)
+    return np.where(ends[:, 0] == ends[:, 1], 3, least)
+
+
+def _program(
+    wanted: FloatArray, balance: csr_array, least: IntArray, time_limit: float
+) -> tuple[IntArray, bool]:
+    """Return counts in balance that are nearest to `wanted`, and whether they surely are.
+
+    The unknowns are counts n and deviations t, held above |n - wanted| between whole numbers by
+    three lines; so the program without integrality has whole solutions nearly everywhere.
+    """
+    k = len(wanted)
+    floor = np.floor(wanted)
+    part = wanted - floor
+    slopes = np.stack([-np.ones(k), 1 - 2 * part, np.ones(k)])
+    heights = np.stack([wanted, part - (1 - 2 * part) * floor, -wanted])
+    above = vstack([hstack([diags_array(-slope), eye_array(k)]) for slope in slopes])
+    constraints = [LinearConstraint(above, heights.reshape(-1), np.inf)]
+    if balance.shape[0]:
+        none = csr_array((balance.shape[0], k))
+        constraints.append(LinearConstraint(hstack([balance, none]), 0, 0))
+    found = milp(
+        np.r_[np.zeros(k), np.ones(k)],
+        integrality=np.r_[np.ones(k), np.zeros(k)],
+        bounds=Bounds(np.r_[least, np.zeros(k)], np.inf),
+        constraints=constraints,
+        options={"time_limit": time_limit},
+    )
+    if found.x is None:
+        raise SolveError(
+            "no numbers of quads were found for the arcs of the layout",
+            f"within {time_limit:g} s" if found.status == 1 else str(found.message),
+            "choose shorter edges",
+        )
+    return np.rint(found.x[:k]).astype(np.int64), found.status == 0
