@@ -101,6 +101,41 @@ class Sheet:
                 for part, color in zip(parts, colors[i], strict=True):
                     self._disc((at[i, 0], at[i, 1]), part * pixels[i], color)
 
+    def signs(
+        self,
+        places: FloatArray,
+        diameter: float,
+        towards: float,
+        strokes: Sequence[Sequence[float]],
+        paints: tuple[str, str],
+        rim: float,
+    ) -> None:
+        """Draw signs, of one size at every distance, at places in space that are not hidden.
+
+        Parameters
+        ----------
+        places : (k, 3) float
+        diameter : float
+            In pixels of the window.
+        towards : float
+        strokes : sequence of (left, low, right, high)
+            Boxes of its letter, in diameters from its centre.
+        paints : (str, str)
+            Ink and paper.
+        rim : float
+            Width of the rim, in diameters.
+        """
+        at, size = self._eye.project(places), diameter * self._ratio
+        boxes = np.array(strokes)[:, [[0, 1], [2, 1], [2, 3], [0, 3]]]
+        shown = self._eye.visible(at, towards)
+        for place in at[np.argsort(-at[:, 2])][shown[np.argsort(-at[:, 2])], :2]:
+            for paint, share in zip(paints, (1.0, 1.0 - 2.0 * rim), strict=True):
+                self._disc((place[0], place[1]), 0.5 * share * size, paint)
+            letter = PolyCollection(
+                list(place + size * boxes), facecolors=paints[0], lw=0, zorder=self._next()
+            )
+            self._axes.add_collection(letter, autolim=False)
+
     def stroke(self, ends: FloatArray, color: str, width: float) -> None:
         """Draw lines (k, 2, 2) on the sheet, in pixels of the window from the bottom left."""
         self._axes.add_collection(

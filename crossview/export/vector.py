@@ -19,11 +19,25 @@ from matplotlib.figure import Figure
 from crossview.export.raster import Seen, picture, pixel_ratio, seen
 from crossview.export.sheet import Sheet
 from crossview.scene import LAYERS, Camera, SceneView, axes, legend
-from crossview.scene.colors import CROSS, CUT, CUT_HALO, LOOP, THEMES, color_table, valence_color
+from crossview.scene.colors import (
+    CROSS,
+    CUT,
+    CUT_HALO,
+    LOOP,
+    MARK_PAPER,
+    QUAD_EDGE,
+    THEMES,
+    color_table,
+    valence_color,
+)
 from crossview.scene.crosses import CrossGlyphs
 from crossview.scene.curves import CUT_DASH, CUT_GAP
 from crossview.scene.geometry import Triangles, dashes
+from crossview.scene.marks import INKS, MARK_SIZE, RIM, STROKES, marks_of
+from crossview.scene.quad_geometry import QuadGeometry
+from crossview.scene.quads import irregular_radius
 from crossview.scene.scalars import SCALARS, bar_texts, shown_scalar
+from crossview.scene.separatrices import separatrix_color
 from crossview.scene.singularities import DISC_PAINTS, DISC_PARTS, marker_radius
 from crossview.scene.style import TOWARDS, WIDTH
 
@@ -54,8 +68,11 @@ def save_vector(
         sheet = Sheet(paper, eye, pixel_ratio(size), _DPI)
         if view.points is not None and view.faces is not None:
             triangles = Triangles(view.points, view.faces)
+            _draw_quads(sheet, view, triangles)
             _draw_crosses(sheet, view, triangles)
+            _draw_separatrices(sheet, view)
             _draw_curves(sheet, view, triangles)
+            _draw_marks(sheet, view)
             _draw_singularities(sheet, view, triangles)
             _draw_axes(sheet, view, eye)
         _write_legend(sheet, view, size[1] / pixel_ratio(size))
@@ -74,18 +91,62 @@ def _only_surface(view: SceneView) -> SceneView:
         else replace(view.layer(kind.name), visible=False)
         for kind in LAYERS
     }
-    return replace(view, layers=MappingProxyType(layers), loop=None, preview=None)
+    for name in ("quads", "layout"):
+        layers[name] = replace(layers[name], visible=view.layer(name).visible, edges=False)
+    quads = None if view.quads is None else replace(view.quads, irregular=np.empty((0, 3)))
+    shown = MappingProxyType(layers)
+    return replace(view, layers=shown, loop=None, preview=None, quads=quads)
 
 
 def _draw_crosses(sheet: Sheet, view: SceneView, triangles: Triangles) -> None:
     settings = view.layer("crosses")
-    if settings.visible and view.u is not None and view.v is not None:
+    shown = settings.visible and view.cover != "quads"
+    if shown and view.u is not None and view.v is not None:
         glyphs = CrossGlyphs(triangles, settings.density)
         ends = glyphs.ends(
             view.u, view.v, view.H, settings.size, settings.uniform, view.half_log_aspect
         )
         segments = ends.reshape(-1, 2, 3)
         sheet.lines(segments, CROSS, WIDTH["crosses"], TOWARDS["crosses"], settings.opacity)
+
+
+def _draw_quads(sheet: Sheet, view: SceneView, triangles: Triangles) -> None:
+    cover = view.cover
+    mesh = {"quads": view.quads, "layout": view.layout}.get(cover)
+    if mesh is None:
+        return
+    settings, geometry = view.layer(cover), QuadGeometry(mesh)
+    ink = QUAD_EDGE if cover == "quads" else THEMES[view.background].ink
+    edges = geometry.edges if cover == "quads" else geometry.borders
+    if settings.edges:
+        width, towards = WIDTH[cover] * settings.size, TOWARDS["layout borders"]
+        sheet.lines(mesh.points[edges], ink, width, towards, round_ends=True)
+    if cover == "quads" and len(mesh.irregular):
+        colors = [(*DISC_PAINTS, valence_color(int(n))) for n in mesh.valences]
+        radius = irregular_radius(view, triangles)
+        sheet.discs(mesh.irregular, radius, TOWARDS["irregular"], colors, DISC_PARTS)
+
+
+def _draw_separatrices(sheet: Sheet, view: SceneView) -> None:
+    settings, curves = view.layer("separatrices"), view.separatrices
+    if not settings.visible or curves is None:
+        return
+    segments, valences = curves.points[curves.segments], curves.segment_valences
+    width, towards = WIDTH["separatrices halo"] * settings.size, TOWARDS["separatrices"]
+    sheet.lines(segments, CUT_HALO, width, towards, settings.opacity, round_ends=True)
+    for valence in np.unique(valences):
+        color, width = separatrix_color(int(valence)), WIDTH["separatrices"] * settings.size
+        chosen = segments[valences == valence]
+        sheet.lines(chosen, color, width, towards, settings.opacity, round_ends=True)
+
+
+def _draw_marks(sheet: Sheet, view: SceneView) -> None:
+    settings = view.layer("marks")
+    for letter, places in marks_of(view).items():
+        if settings.visible and places is not None and len(places):
+            diameter, towards = MARK_SIZE * settings.size, TOWARDS[f"{letter} marks"]
+            paints = (INKS[letter], MARK_PAPER)
+            sheet.signs(places, diameter, towards, STROKES[letter], paints, RIM)
 
 
 def _draw_curves(sheet: Sheet, view: SceneView, triangles: Triangles) -> None:
@@ -154,5 +215,5 @@ def _draw_bar(sheet: Sheet, view: SceneView, width: float, limits: tuple[float, 
     words = bar_texts(shown, limits)
     for word, y in zip(words, np.linspace(levels[0], levels[-1], len(words)), strict=True):
         sheet.word(word, (left - legend.BAR_GAP, float(y)), ink, "right", legend.TEXT_SIZE)
-    above = (0.5 * (left + right), float(levels[-1]) + legend.BAR_TITLE)
-    sheet.word(SCALARS[shown].title, above, ink, "center", legend.TEXT_SIZE + 1.0)
+    above = (right, float(levels[-1]) + legend.BAR_TITLE)
+    sheet.word(SCALARS[shown].title, above, ink, "right", legend.TEXT_SIZE + 1.0)

@@ -27,12 +27,11 @@ from crossview.scene.camera import Camera
 from crossview.scene.display import ensure_rendering, software_renderer
 from crossview.scene.field import field_view
 from crossview.scene.scene import Scene
+from crossview.scene.values import Curves, Elements, Marker, Quads
 from crossview.scene.view import (
     LAYERS,
-    Elements,
     LayerKind,
     LayerSettings,
-    Marker,
     SceneView,
     default_layers,
     layers_named,
@@ -41,10 +40,12 @@ from crossview.scene.view import (
 __all__ = [
     "LAYERS",
     "Camera",
+    "Curves",
     "Elements",
     "LayerKind",
     "LayerSettings",
     "Marker",
+    "Quads",
     "Scene",
     "SceneView",
     "default_layers",

@@ -33,6 +33,14 @@ CUT = "#1f5fd6"
 CUT_HALO = "#ffffff"
 LOOP = "#0b8f6f"
 PROBLEM = "#e5182b"
+SEPARATRIX = "#5c626c"
+"""Of a curve that leaves no singularity."""
+QUAD_EDGE = "#3a3f47"
+MARK_PAPER, MARK_INK, MARK_WARNING = "#ffffff", "#111317", "#d4141f"
+PATCHES = (
+    "#b9d3ea", "#f3d3b8", "#c7e0bd", "#dfcbe8", "#f2e6ae", "#bfe0dd", "#f0c6cd", "#d5d0c4",
+)  # fmt: skip
+"""Calm, and told apart by the eye also where colours are hard to tell."""
 
 COLOR_MAPS = {
     "vik": cm.vik,
@@ -43,10 +51,14 @@ COLOR_MAPS = {
     "vikO": cm.vikO,
     "corkO": cm.corkO,
     "lajolla": cm.lajolla_r,
+    "lajolla down": cm.lajolla,
 }
 DIVERGING = ("vik", "broc", "cork", "roma")
 CYCLIC = ("romaO", "vikO", "corkO")
-_DARK_ENDS = dict.fromkeys(DIVERGING, (0.07, 0.07)) | {"lajolla": (0.0, 0.32)}
+_DARK_ENDS = dict.fromkeys(DIVERGING, (0.07, 0.07)) | {
+    "lajolla": (0.0, 0.32),
+    "lajolla down": (0.32, 0.0),
+}
 
 
 @dataclass(frozen=True)

@@ -35,7 +35,8 @@ class CrossesLayer:
     def show(self, view: SceneView, triangles: Triangles | None) -> None:
         """Apply what changed."""
         settings = view.layer("crosses")
-        if not settings.visible or triangles is None or view.u is None or view.v is None:
+        hidden = not settings.visible or view.cover == "quads"
+        if hidden or triangles is None or view.u is None or view.v is None:
             self._actor.visible = False
             return
         fresh = self._watch.changed("chosen", triangles, settings.density)

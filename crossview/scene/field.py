@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from crossview.scene.geometry import FloatArray, IntArray, Triangles
-from crossview.scene.view import Marker, SceneView
+from crossview.scene.values import Marker
+from crossview.scene.view import SceneView
 from solvers.crossfield import CrossField
 
 

@@ -96,7 +96,7 @@ class ColorBarLayer:
     def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float) -> None:
         self._ratio = pixel_ratio
         self._patches = Patches(plotter, (1.0, 0.0))
-        self._title = Label(plotter, (1.0, 0.0), (TEXT_SIZE + 1.0) * pixel_ratio, "centre")
+        self._title = Label(plotter, (1.0, 0.0), (TEXT_SIZE + 1.0) * pixel_ratio, "right")
         self._ticks = [
             Label(plotter, (1.0, 0.0), TEXT_SIZE * pixel_ratio, "right") for _ in range(5)
         ]
@@ -112,7 +112,7 @@ class ColorBarLayer:
         color = THEMES[view.background].text
         texts = bar_texts(shown, limits) if shown else [""] * 5
         self._title.show(
-            SCALARS[shown].title if shown else "", self._at(0.5, BAR_HEIGHT + BAR_TITLE), color
+            SCALARS[shown].title if shown else "", self._at(1.0, BAR_HEIGHT + BAR_TITLE), color
         )
         for i, (label, text) in enumerate(zip(self._ticks, texts, strict=True)):
             x, y = self._at(0.0, BAR_HEIGHT * i / 4.0)

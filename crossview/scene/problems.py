@@ -9,7 +9,8 @@ from crossview.scene.actors import MeshActor
 from crossview.scene.colors import PROBLEM
 from crossview.scene.geometry import FloatArray, IntArray, Triangles
 from crossview.scene.style import WIDTH
-from crossview.scene.view import Elements, SceneView
+from crossview.scene.values import Elements
+from crossview.scene.view import SceneView
 from crossview.scene.watch import Watch
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from crossview.scene.field import cross_angle
 from crossview.scene.geometry import FloatArray, Triangles
-from crossview.scene.view import SceneView
+from crossview.scene.view import LayerSettings, SceneView
 
 Limits = tuple[float, float]
 
@@ -36,17 +36,22 @@ SCALARS = {
     "H1": ScalarKind("vik", "H₁", cells=True),
     "H2": ScalarKind("vik", "H₂", cells=True),
     "H": ScalarKind("vik", "H", cells=False),
+    "quads": ScalarKind("lajolla down", "scaled Jacobian", cells=True),
 }
 """By the name of their layer; of several that are visible the first is shown."""
 
 
 def shown_scalar(view: SceneView) -> str:
-    """Return which scalar colours the surface, "" for none."""
+    """Return which scalar colours the surface or the quads in its place, "" for none."""
+    if view.cover:
+        quality = view.cover == "quads" and view.layer("quads").coloring == "quality"
+        return "quads" if quality else ""
     sizes = view.H is not None and view.half_log_aspect is not None
     there = {
         "error": view.error_density is not None,
         "theta": view.u is not None,
         "H": view.H is not None,
+        "quads": False,
     }
     for name in SCALARS:
         if view.layer(name).visible and there.get(name, sizes):
@@ -86,6 +91,11 @@ def scalar_limits(view: SceneView, name: str, triangles: Triangles, values: Floa
     sizes = [scalar_values(view, each, triangles) for each in ("H1", "H2")]
     both = np.concatenate([each for each in sizes if each is not None])
     return symmetric_range(both, np.tile(triangles.areas, 2))
+
+
+def quality_limits(settings: LayerSettings) -> Limits:
+    """Return the limits of the colours of quads: 0 to 1 unless others are given."""
+    return settings.value_range or (0.0, 1.0)
 
 
 def density_limits(density: FloatArray, areas: FloatArray) -> Limits:

@@ -21,8 +21,11 @@ from crossview.scene.legend import (
     TitleLayer,
     ValenceLegendLayer,
 )
+from crossview.scene.marks import MarksLayer
 from crossview.scene.problems import ProblemLayer
-from crossview.scene.scalars import shown_scalar
+from crossview.scene.quads import QuadsLayer
+from crossview.scene.scalars import quality_limits, shown_scalar
+from crossview.scene.separatrices import SeparatricesLayer
 from crossview.scene.singularities import SingularitiesLayer
 from crossview.scene.surface import SurfaceLayer
 from crossview.scene.view import SceneView
@@ -71,10 +74,13 @@ class Scene:
         self._surface = SurfaceLayer(plotter, pixel_ratio)
         self._bar = ColorBarLayer(plotter, pixel_ratio) if texts else None
         kinds: tuple[type[Layer], ...] = (
+            QuadsLayer,
             CrossesLayer,
+            SeparatricesLayer,
             BoundaryLayer,
             CutLayer,
             LoopLayer,
+            MarksLayer,
             SingularitiesLayer,
             ProblemLayer,
         )
@@ -94,6 +100,8 @@ class Scene:
     @property
     def limits(self) -> tuple[float, float]:
         """The limits of the colours of the scalar shown; of the error density powers of 10."""
+        if shown_scalar(self._view) == "quads":
+            return quality_limits(self._view.layer("quads"))
         return self._surface.limits
 
     def show(self, view: SceneView) -> bool:
@@ -112,9 +120,9 @@ class Scene:
             self._plotter.renderer.SetBackground(*rgb(THEMES[view.background].background))
         for layer in self._layers:
             layer.show(view, self._triangles)
+        self._view = view
         if self._bar is not None:
             self._bar.show_range(view, self.limits)
-        self._view = view
         return True
 
     @property

@@ -12,7 +12,8 @@ from scipy.spatial.distance import pdist
 from crossview.scene.actors import MeshActor, set_cell_colors
 from crossview.scene.colors import rgb, valence_color
 from crossview.scene.geometry import FloatArray, IntArray, Triangles
-from crossview.scene.view import Marker, SceneView
+from crossview.scene.values import Marker
+from crossview.scene.view import SceneView
 from crossview.scene.watch import Watch
 
 # Radius of a singularity in diagonals of the surface, and at most in distances to its neighbour.
@@ -47,10 +48,10 @@ _RING = (
 )
 
 
-class _Balls:
-    """Any number of balls of one shader in one dataset."""
+class Balls:
+    """Any number of balls of one shader in one dataset, by default rimmed discs."""
 
-    def __init__(self, plotter: pv.BasePlotter, name: str, shader: str) -> None:
+    def __init__(self, plotter: pv.BasePlotter, name: str, shader: str = _DISC) -> None:
         self._actor = MeshActor(plotter, name)
         code = shader.format(rim=", ".join(f"{part:.4f}" for part in rgb(_RIM)))
         self._actor.actor.GetShaderProperty().AddFragmentShaderReplacement(
@@ -81,6 +82,7 @@ class _Balls:
         self._actor.visible = k > 0
 
     def remove(self) -> None:
+        """Take them off the plotter."""
         self._actor.remove()
 
 
@@ -88,9 +90,9 @@ class SingularitiesLayer:
     """The singularities in the colours of their valences, and a ring about the selected."""
 
     def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float) -> None:
-        self._discs = _Balls(plotter, "singularities", _DISC)
-        self._rings = _Balls(plotter, "selection", _RING)
-        self._preview = _Balls(plotter, "preview", _DISC)
+        self._discs = Balls(plotter, "singularities")
+        self._rings = Balls(plotter, "selection", _RING)
+        self._preview = Balls(plotter, "preview")
         self._preview.property.SetOpacity(_PREVIEW_OPACITY)
         self._watch = Watch()
 
@@ -114,7 +116,7 @@ class SingularitiesLayer:
             balls.remove()
 
     @staticmethod
-    def _draw(balls: _Balls, markers: tuple[Marker, ...], radius: float) -> None:
+    def _draw(balls: Balls, markers: tuple[Marker, ...], radius: float) -> None:
         centres = np.array([m.position for m in markers], float).reshape(-1, 3)
         balls.show(
             centres, radius, [valence_color(m.valence) if m.valence else _RIM for m in markers]

@@ -6,6 +6,10 @@ from __future__ import annotations
 WIDTH = {
     "edges": 1.0,
     "crosses": 1.25,
+    "separatrices": 2.25,
+    "separatrices halo": 4.25,
+    "layout": 2.0,
+    "quads": 1.0,
     "boundary": 2.5,
     "cut": 2.75,
     "cut halo": 4.75,
@@ -16,7 +20,12 @@ WIDTH = {
 # not fight with the surface they lie on, and discs do not sink into it when seen from the side.
 TOWARDS = {
     "surface": 0.0,
+    "quads": 0.0,
+    "layout": 0.0,
     "crosses": 30.0,
+    "layout borders": 40.0,
+    "separatrices halo": 55.0,
+    "separatrices": 60.0,
     "boundary": 80.0,
     "cut halo": 90.0,
     "cut": 100.0,
@@ -24,6 +33,9 @@ TOWARDS = {
     "problem faces": 150.0,
     "problem lines": 600.0,
     "problem dots": 900.0,
+    "irregular": 2000.0,
+    "T marks": 2200.0,
+    "! marks": 2200.0,
     "singularities": 2500.0,
     "selection": 2500.0,
     "preview": 3000.0,

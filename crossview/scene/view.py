@@ -7,14 +7,11 @@ from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Any, Literal
 
-import numpy as np
-import numpy.typing as npt
-
+from crossview.scene.values import Curves, Elements, FloatArray, IntArray, Marker, Quads
 from solvers.errors import CrossviewError
 
-FloatArray = npt.NDArray[np.floating[Any]]
-IntArray = npt.NDArray[np.integer[Any]]
 Background = Literal["white", "dark", "transparent"]
+Coloring = Literal["quality", "patch", "plain"]
 
 
 @dataclass(frozen=True)
@@ -38,7 +35,9 @@ class LayerSettings:
     uniform : bool
         Glyphs of one size instead of exp(H).
     edges : bool
-        Whether the triangles' edges are drawn on the surface.
+        Whether edges are drawn: of triangles, of quads, of a layout those between its patches.
+    coloring : {"quality", "patch", "plain"}
+        What the colours of quads mean: scaled Jacobian, patch, nothing.
     """
 
     visible: bool = True
@@ -49,6 +48,7 @@ class LayerSettings:
     density: float = 1.0
     uniform: bool = False
     edges: bool = False
+    coloring: Coloring = "quality"
 
 
 @dataclass(frozen=True)
@@ -59,6 +59,11 @@ class LayerKind:
     label: str
     settings: tuple[str, ...] = ()
     visible: bool = True
+    edges: bool = False
+
+    def defaults(self, visible: bool) -> LayerSettings:
+        """Return the settings it starts with."""
+        return LayerSettings(visible=visible, edges=self.edges)
 
 
 LAYERS: tuple[LayerKind, ...] = (
@@ -70,6 +75,16 @@ LAYERS: tuple[LayerKind, ...] = (
     LayerKind("aspect", "Aspect", ("opacity", "color_map", "value_range"), visible=False),
     LayerKind("error", "Error density", ("opacity", "color_map", "value_range"), visible=False),
     LayerKind("crosses", "Crosses", ("opacity", "size", "density", "uniform")),
+    LayerKind("separatrices", "Separatrices", ("opacity", "size")),
+    LayerKind("marks", "T and ! marks", ("size",)),
+    LayerKind("layout", "Layout", ("opacity", "edges", "size"), visible=False, edges=True),
+    LayerKind(
+        "quads",
+        "Quads",
+        ("coloring", "edges", "size", "value_range"),
+        visible=False,
+        edges=True,
+    ),
     LayerKind("singularities", "Singularities", ("size",)),
     LayerKind("cut", "Cut graph", ("opacity", "size"), visible=False),
     LayerKind("boundary", "Boundary", ("size",)),
@@ -80,7 +95,7 @@ LAYERS: tuple[LayerKind, ...] = (
 
 def default_layers() -> Mapping[str, LayerSettings]:
     """Return the settings every layer starts with, by layer name."""
-    return MappingProxyType({kind.name: LayerSettings(visible=kind.visible) for kind in LAYERS})
+    return MappingProxyType({kind.name: kind.defaults(kind.visible) for kind in LAYERS})
 
 
 def layers_named(names: Sequence[str]) -> Mapping[str, LayerSettings]:
@@ -95,26 +110,7 @@ def layers_named(names: Sequence[str]) -> Mapping[str, LayerSettings]:
     for name in names:
         if name not in known:
             raise CrossviewError(f'no layer "{name}"', "layers", "choose from " + ", ".join(known))
-    return MappingProxyType({name: LayerSettings(visible=name in names) for name in known})
-
-
-@dataclass(frozen=True)
-class Marker:
-    """A singularity as the scene sees it: a position in space, a valence, and its state."""
-
-    position: tuple[float, float, float]
-    valence: int
-    selected: bool = False
-    locked: bool = False
-
-
-@dataclass(frozen=True, eq=False)
-class Elements:
-    """Faces (k,), vertices (k,) and edges (k, 2; vertex pairs) of the surface to point out."""
-
-    faces: IntArray = field(default_factory=lambda: np.empty(0, int))
-    vertices: IntArray = field(default_factory=lambda: np.empty(0, int))
-    edges: IntArray = field(default_factory=lambda: np.empty((0, 2), int))
+    return MappingProxyType({kind.name: kind.defaults(kind.name in names) for kind in LAYERS})
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,6 +143,15 @@ class SceneView:
         Vertices of a path to point out (a holonomy condition's).
     problem : Elements, optional
         Offending elements to point out.
+    separatrices : Curves, optional
+    t_junctions : (k, 3) float, optional
+        Where a limit cycle is cut: a "T" each.
+    misaligned : (k, 3) float, optional
+        On boundaries that the field is not aligned with: a "!" each.
+    layout : Quads, optional
+        The patches, finely sampled.
+    quads : Quads, optional
+        The quad mesh.
     title : str
         One line at the top left.
     background : {"white", "dark", "transparent"}
@@ -167,9 +172,22 @@ class SceneView:
     cut_graph: IntArray | None = None
     loop: IntArray | None = None
     problem: Elements | None = None
+    separatrices: Curves | None = None
+    t_junctions: FloatArray | None = None
+    misaligned: FloatArray | None = None
+    layout: Quads | None = None
+    quads: Quads | None = None
     title: str = ""
     background: Background = "white"
     layers: Mapping[str, LayerSettings] = field(default_factory=default_layers)
+
+    @property
+    def cover(self) -> str:
+        """What is drawn in place of the triangles, their scalar and (of quads) the crosses."""
+        for name, mesh in (("quads", self.quads), ("layout", self.layout)):
+            if mesh is not None and len(mesh.quads) and self.layer(name).visible:
+                return name
+        return ""
 
     def layer(self, name: str) -> LayerSettings:
         """Return the settings of a layer."""

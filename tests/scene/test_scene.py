@@ -288,5 +288,5 @@ class TestWhatCannotBeDrawn:
         assert near(stage.color_at(PLATE.barycentres[3]), PROBLEM)
 
     def test_an_unknown_layer_names_the_known(self):
-        with pytest.raises(CrossviewError, match=r'no layer "quads".*surface, H, theta, .*crosses'):
-            layers_named(["H", "quads"])
+        with pytest.raises(CrossviewError, match=r'no layer "hexes".*surface, H, theta, .*crosses'):
+            layers_named(["H", "hexes"])

@@ -1,0 +1,88 @@
+"""What lies on the surface besides a field, as plain frozen values: curves, marks, quads."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+FloatArray = npt.NDArray[np.floating[Any]]
+IntArray = npt.NDArray[np.integer[Any]]
+
+
+@dataclass(frozen=True)
+class Marker:
+    """A singularity as the scene sees it: a position in space, a valence, and its state."""
+
+    position: tuple[float, float, float]
+    valence: int
+    selected: bool = False
+    locked: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Elements:
+    """Faces (k,), vertices (k,) and edges (k, 2; vertex pairs) of the surface to point out."""
+
+    faces: IntArray = field(default_factory=lambda: np.empty(0, int))
+    vertices: IntArray = field(default_factory=lambda: np.empty(0, int))
+    edges: IntArray = field(default_factory=lambda: np.empty((0, 2), int))
+
+
+@dataclass(frozen=True, eq=False)
+class Curves:
+    """Polylines on the surface.
+
+    Parameters
+    ----------
+    points : (p, 3) float
+    offsets : (n + 1,) int
+        Curve i is ``points[offsets[i]:offsets[i + 1]]``.
+    valences : (n,) int
+        Of the singularity that each leaves: its colour; 0: none.
+    """
+
+    points: FloatArray
+    offsets: IntArray
+    valences: IntArray
+
+    @property
+    def segments(self) -> IntArray:
+        """(s, 2): pairs of points that are joined."""
+        joined = np.ones(len(self.points), bool)
+        joined[self.offsets[1:][np.diff(self.offsets) > 0] - 1] = False
+        first = np.flatnonzero(joined)
+        return np.stack([first, first + 1], axis=1)
+
+    @property
+    def segment_valences(self) -> IntArray:
+        """(s,): of the curve that each segment belongs to."""
+        return np.repeat(self.valences, np.maximum(np.diff(self.offsets) - 1, 0))
+
+
+@dataclass(frozen=True, eq=False)
+class Quads:
+    """A mesh of quadrilaterals that is drawn in place of the triangles.
+
+    Parameters
+    ----------
+    points : (n, 3) float
+    quads : (q, 4) int
+    patch : (q,) int
+        Number of the patch that each is in.
+    quality : (q,) float, optional
+        Scaled Jacobian.
+    irregular : (k, 3) float, optional
+        Positions of the irregular vertices.
+    valences : (k,) int, optional
+        Of the irregular vertices.
+    """
+
+    points: FloatArray
+    quads: IntArray
+    patch: IntArray
+    quality: FloatArray | None = None
+    irregular: FloatArray = field(default_factory=lambda: np.empty((0, 3)))
+    valences: IntArray = field(default_factory=lambda: np.empty(0, int))
