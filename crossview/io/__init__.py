@@ -33,6 +33,7 @@ READERS: dict[str, Callable[[Path], Polygons]] = {
     ".off": read_off,
     ".vtk": _from_libraries("read_vtk"),
     ".vtp": _from_libraries("read_vtp"),
+    ".vtu": _from_libraries("read_vtu"),
     ".gltf": _from_libraries("read_gltf"),
     ".glb": _from_libraries("read_gltf"),
     ".msh": _from_libraries("read_msh"),

@@ -14,7 +14,7 @@ import pyvista as pv
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 from vtkmodules.vtkIOGeometry import vtkGLTFReader
 from vtkmodules.vtkIOLegacy import vtkDataSetReader
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
 
 from crossview.io.polygons import Polygons
 from solvers.errors import CrossviewError
@@ -32,6 +32,11 @@ def read_vtk(path: Path) -> Polygons:
 def read_vtp(path: Path) -> Polygons:
     """Read a surface in VTK's XML format."""
     return _surface_of(_run(vtkXMLPolyDataReader(), path), path)
+
+
+def read_vtu(path: Path) -> Polygons:
+    """Read an unstructured grid in VTK's XML format; of volumes, the outer surface."""
+    return _surface_of(_run(vtkXMLUnstructuredGridReader(), path), path)
 
 
 def read_gltf(path: Path) -> Polygons:

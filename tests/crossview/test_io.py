@@ -94,6 +94,10 @@ def save(**options):
     return lambda path, surface: mesh_of(surface).save(path, **options)
 
 
+def save_grid(path, surface):
+    pv.UnstructuredGrid({pv.CellType.TRIANGLE: surface.faces}, surface.vertices).save(path)
+
+
 FORMATS = {
     "obj": (".obj", write_obj),
     "off": (".off", write_off),
@@ -105,6 +109,7 @@ FORMATS = {
     "vtk binary": (".vtk", save(binary=True)),
     "vtp text": (".vtp", save(binary=False)),
     "vtp binary": (".vtp", save(binary=True)),
+    "vtu": (".vtu", save_grid),
     "gltf": (".gltf", lambda path, surface: write_gltf(path, [{"mesh": 0}], [surface])),
     "glb": (".glb", lambda path, surface: write_glb(path, [{"mesh": 0}], [surface])),
     "msh 2.2 text": (".msh", write_msh("2.2", binary=False)),
