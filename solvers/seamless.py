@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import coo_array, csc_array, diags_array
 
-from solvers.factorization import Analysis
+from solvers.factorization import Analysis, Factorization
 from solvers.integrability import Integrability
 from solvers.triangulation import FloatArray, IntArray, IntrinsicTriangulation
 
@@ -66,50 +66,124 @@ def seamless_map(integrability: Integrability, x: FloatArray) -> SeamlessMap:
     SeamlessMap
         The one with the fewest triangles turned over.
     """
-    t = integrability.triangulation
-    fit = _Fit(integrability)
-    weight = np.maximum(t.weights, LEAST_WEIGHT / 2) * _by_size(integrability, x)
-    wanted, upright = _wanted(integrability, x), _wanted_by_means(integrability, x)
-    best = found = fit.solve(wanted, weight)
-    for _ in range(ROUNDS):
-        over = found.flipped
-        if len(over) == 0 or len(over) > HOPELESS * t.n_faces:
-            break
-        h = (3 * over[:, None] + np.arange(3)).reshape(-1)
-        wanted[h] = upright[h]
-        weight[h] *= STIFFER
-        found = fit.solve(wanted, weight)
-        if len(found.flipped) < len(best.flipped):
-            best = found
-    return best
+    return SeamlessFit(integrability, x).map
 
 
-class _Fit:
-    """Closed images that are as near as possible to wanted ones."""
+class SeamlessFit:
+    """The seamless map nearest to a field, and its factor for further conditions on it.
+
+    Parameters
+    ----------
+    integrability : Integrability
+        The problem whose unknowns `x` are.
+    x : (N,) float array
+        The field.
+
+    Attributes
+    ----------
+    map : SeamlessMap
+        The one with the fewest triangles turned over.
+    """
+
+    def __init__(self, integrability: Integrability, x: FloatArray) -> None:
+        t = integrability.triangulation
+        self._conditions = _Conditions(integrability)
+        self._weight = np.maximum(t.weights, LEAST_WEIGHT / 2) * _by_size(integrability, x)
+        self._wanted = _wanted(integrability, x)
+        self._upright = _wanted_by_means(integrability, x)
+        self._stiffer = np.zeros(t.n_faces, dtype=bool)
+        self._fit = _Fit(self._conditions, self._wanted, self._weight)
+        self.map = self._mended(None)
+
+    @property
+    def mended(self) -> int:
+        """Number of triangles made stiffer."""
+        return int(self._stiffer.sum())
+
+    def join(self, rows: csc_array) -> SeamlessMap:
+        """Make `map` the nearest on which more linear combinations of images vanish.
+
+        Parameters
+        ----------
+        rows : (k, 6 m) sparse array
+            Coefficients of the images' components; rows that contradict others are met as well
+            as can be.
+        """
+        self.map = self._mended(rows)
+        return self.map
+
+    def _mended(self, rows: csc_array | None) -> SeamlessMap:
+        """Return the map with the fewest triangles turned over, making those stiffer."""
+        best = found = self._fit.joined(rows)
+        for _ in range(ROUNDS):
+            over = found.flipped
+            if len(over) == 0 or len(over) > HOPELESS * len(self._stiffer):
+                break
+            self._stiffer[over] = True
+            h = (3 * over[:, None] + np.arange(3)).reshape(-1)
+            self._wanted[h] = self._upright[h]
+            self._weight[h] *= STIFFER
+            self._fit = _Fit(self._conditions, self._wanted, self._weight)
+            found = self._fit.joined(rows)
+            if len(found.flipped) < len(best.flipped):
+                best = found
+        return best
+
+
+class _Conditions:
+    """What every seamless map of a field satisfies, in terms of one image for each edge."""
 
     def __init__(self, integrability: Integrability) -> None:
         edges = integrability.triangulation.edge_halfedges
-        self._spread = _to_halfedges(integrability, edges)
-        self._closing = _closing(integrability, self._spread)
-        self._free = _free(integrability, edges).reshape(-1)
+        self.spread = _to_halfedges(integrability, edges)
+        self.closing = _closing(integrability, self.spread)
+        self.free = _free(integrability, edges).reshape(-1)
         self._analysis: Analysis | None = None
 
-    def solve(self, wanted: FloatArray, weight: FloatArray) -> SeamlessMap:
-        """Return the map nearest to wanted images (3 m, 2) of halfedges with weights (3 m,)."""
+    def factor(self, matrix: csc_array) -> Factorization:
+        """Factor a matrix that has the same pattern each time."""
+        if self._analysis is None:
+            self._analysis = Analysis(matrix)
+        return self._analysis.factor(matrix)
+
+
+class _Fit:
+    """Closed images as near as possible to wanted ones (3 m, 2) with weights (3 m,)."""
+
+    def __init__(self, conditions: _Conditions, wanted: FloatArray, weight: FloatArray) -> None:
+        spread, closing = conditions.spread, conditions.closing
         squares = np.repeat(weight, 2)
-        diagonal = self._spread.power(2).T @ squares
-        asked = self._free * (self._spread.T @ (squares * wanted.reshape(-1))) / diagonal
-        inverse = self._free / diagonal
-        closing = self._closing
-        schur = closing @ diags_array(inverse) @ closing.T
+        self._conditions = conditions
+        self._diagonal = spread.power(2).T @ squares
+        free = conditions.free
+        self._asked = free * (spread.T @ (squares * wanted.reshape(-1))) / self._diagonal
+        self._inverse = free / self._diagonal
+        schur = closing @ diags_array(self._inverse) @ closing.T
         # On a flat torus the closing of all triangles together is no condition.
         schur = csc_array(schur + 1e-13 * diags_array(schur.diagonal()))
-        if self._analysis is None:
-            self._analysis = Analysis(schur)
-        correction = inverse * (closing.T @ self._analysis.factor(schur).solve(closing @ asked))
-        distance = np.sqrt(diagonal @ correction**2 / (diagonal @ asked**2))
-        images = (self._spread @ (asked - correction)).reshape(-1, 3, 2)
-        return SeamlessMap(images, float(distance))
+        self._factor = conditions.factor(schur)
+
+    def _closed(self, images: FloatArray) -> FloatArray:
+        """Return the nearest images of edges that close around every triangle."""
+        closing = self._conditions.closing
+        forces = closing.T @ self._factor.solve(closing @ images)
+        return np.asarray(images - self._inverse * forces)
+
+    def _as_map(self, images: FloatArray) -> SeamlessMap:
+        change = images - self._asked
+        asked = self._diagonal @ self._asked**2
+        distance = np.sqrt(self._diagonal @ change**2 / asked)
+        return SeamlessMap((self._conditions.spread @ images).reshape(-1, 3, 2), float(distance))
+
+    def joined(self, rows: csc_array | None) -> SeamlessMap:
+        """Return the nearest map on which also `rows` of its images vanish."""
+        images = self._closed(self._asked)
+        if rows is not None:
+            wanted = csc_array(rows @ self._conditions.spread).toarray()
+            moves = np.array([self._closed(self._inverse * row) for row in wanted])
+            force = np.linalg.lstsq(wanted @ moves.T, wanted @ images, rcond=1e-10)[0]
+            images = images - force @ moves
+        return self._as_map(images)
 
 
 def _wanted(integrability: Integrability, x: FloatArray) -> FloatArray:
