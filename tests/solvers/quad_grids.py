@@ -1,6 +1,7 @@
 """Quad meshes with closed forms, for the tests of quads."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import numpy.typing as npt
@@ -8,6 +9,7 @@ import numpy.typing as npt
 from solvers.primitives import BUILTIN
 from solvers.projection import Projection
 from solvers.quadmesh import QuadMesh
+from solvers.rails import boundary_rails
 from solvers.surface import TriSurface
 
 Array = npt.NDArray[np.float64]
@@ -16,35 +18,22 @@ Array = npt.NDArray[np.float64]
 def on_surface(
     surface: TriSurface, places: Array, quads: npt.NDArray[np.int64], fixed: list[int]
 ) -> QuadMesh:
-    """Quads whose vertices are put on the surface, those on its boundary by nearest loop."""
+    """Quads whose vertices are put on the surface, those of the boundary on its nearest loop."""
     projection = Projection(surface)
     faces, weights = projection.nearest(places)
     held = np.zeros(len(places), dtype=bool)
     held[fixed] = True
-    loop_of = np.full(surface.n_vertices, -1)
-    for number, loop in enumerate(surface.boundary_loops):
-        loop_of[loop] = number
-    mesh = QuadMesh(
-        surface,
-        projection.positions(faces, weights),
-        quads,
-        np.zeros(len(quads), dtype=np.int64),
-        faces,
-        weights,
-        held,
-        np.full(len(places), -1),
-    )
-    loop = np.where(weights > 1e-9, loop_of[surface.faces[faces]], -1).max(axis=1)
-    return QuadMesh(
-        surface,
-        mesh.vertices,
-        quads,
-        mesh.patch,
-        faces,
-        weights,
-        held,
-        np.where(mesh.on_boundary, loop, -1),
-    )
+    loop, patch = np.full(len(places), -1), np.zeros(len(quads), dtype=np.int64)
+    mesh = QuadMesh(surface, places, quads, patch, faces, weights, held, loop)
+    on = np.flatnonzero(mesh.on_boundary)
+    rails = boundary_rails(surface)
+    if rails:
+        gaps = [places[on] - rail.positions(rail.nearest(places[on])) for rail in rails]
+        loop[on] = np.argmin(np.linalg.norm(gaps, axis=2), axis=0)
+    for number, rail in enumerate(rails):
+        on = np.flatnonzero(loop == number)
+        faces[on], weights[on] = rail.points(rail.nearest(places[on]))
+    return replace(mesh, vertices=projection.positions(faces, weights))
 
 
 def lattice(

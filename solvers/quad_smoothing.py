@@ -1,0 +1,147 @@
+"""Smoothing of a quad mesh on its surface: every quad is drawn towards a rectangle.
+
+Local step: each quad asks its corners to be those of the rectangle of its own mean sides that lies
+nearest, so that sizes and aspects stay what they are. Global step: each vertex takes the mean of
+what its quads ask for, and is put back on the surface or on its rail. Where a quad would become
+worse than the worst before, its vertices stay.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from solvers.quadmesh import QuadMesh
+from solvers.rails import Rail, boundary_rails
+from solvers.sliding import Places, Sliding
+from solvers.triangulation import FloatArray, IntArray
+from solvers.untangling import POOR, improve_worst
+
+ROUNDS = 30
+"""How often all vertices move."""
+
+STAGES = 3
+"""Such rounds at most, poor quads improved one by one after each."""
+
+RETREATS = 10
+"""How often vertices around spoilt quads are put back before a round is given up."""
+
+
+def smooth(
+    mesh: QuadMesh,
+    *,
+    curves: Sequence[IntArray] = (),
+    on_curve: IntArray | None = None,
+    rounds: int = ROUNDS,
+) -> QuadMesh:
+    """Return a mesh with quads more like rectangles, none worse than the worst before.
+
+    Vertices stay on the surface, those of a boundary or a curve on it, fixed ones where they are.
+    The nearest vertex is put on each sharp turn of a boundary or a curve, if no quad becomes
+    worse for it than the worst before and than `POOR`.
+
+    Parameters
+    ----------
+    mesh : QuadMesh
+        What to smooth.
+    curves : sequence of (k,) int array, optional
+        Chains of surface vertices joined by edges; the first again at the end of a closed one.
+    on_curve : (n,) int array, optional
+        The curve each vertex of the mesh lies on, or -1.
+    rounds : int, optional
+        How often all vertices move.
+
+    Notes
+    -----
+    The local step is shape matching (Bouaziz et al. 2012, "Shape-Up").
+    """
+    surface = mesh.surface
+    rail, held = mesh.boundary_loop.copy(), mesh.fixed.copy()
+    rails = boundary_rails(surface)
+    if on_curve is not None:
+        # Where a curve meets the boundary, its vertex is held by both.
+        held |= (rail >= 0) & (on_curve >= 0)
+        rail = np.where((rail < 0) & (on_curve >= 0), on_curve + len(rails), rail)
+        rails += [Rail(surface, curve) for curve in curves]
+    sliding = Sliding(replace(mesh, fixed=held), rails, rail)
+    start = sliding.start()
+    least = float(mesh.scaled_jacobian.min(initial=POOR))
+    snapped, on_corners = sliding.snapped(start)
+    while True:
+        found = _smoothed(sliding, snapped, on_corners, rounds)
+        spoilt = mesh.quads[sliding.quality(found, mesh.quads) < least]
+        if len(on_corners) == 0 or len(spoilt) == 0:
+            break
+        # Let go of the corners that cost too much; if it is not they, of all.
+        guilty = np.isin(on_corners, spoilt)
+        on_corners = on_corners[~guilty] if guilty.any() else on_corners[:0]
+        snapped = start.put(on_corners, snapped.at(on_corners))
+    return replace(mesh, vertices=found.vertices, faces=found.faces, barycentric=found.weights)
+
+
+def _smoothed(sliding: Sliding, places: Places, held: IntArray, rounds: int) -> Places:
+    """Return better places, with the vertices `held` where they are."""
+    mesh = sliding.mesh
+    fixed = mesh.fixed.copy()
+    fixed[held] = True
+    free = np.flatnonzero(~fixed)
+    for _ in range(STAGES):
+        for _ in range(rounds):
+            places = _round(sliding, places, free)
+        if sliding.quality(places, mesh.quads).min(initial=1.0) >= POOR:
+            break
+        places = improve_worst(sliding, places, free)
+    return places
+
+
+def _round(sliding: Sliding, places: Places, free: IntArray) -> Places:
+    """Return the places after a local and a global step that leaves no quad below the worst."""
+    mesh, quads = sliding.mesh, sliding.mesh.quads
+    outward = mesh.surface.face_normals[places.faces[quads]].sum(axis=1)
+    asked = rectangles(places.vertices[quads], outward).reshape(-1, 3)
+    total = [np.bincount(quads.reshape(-1), x, mesh.n_vertices) for x in asked.T]
+    means = np.stack(total, axis=1) / mesh.valence[:, None]
+    moved = places.put(free, sliding.moved(places, free, means[free]))
+    least = sliding.quality(places, quads).min(initial=1.0)
+    for _ in range(RETREATS):
+        spoilt = sliding.quality(moved, quads) < least
+        if not spoilt.any():
+            return moved
+        back = np.unique(quads[spoilt])
+        moved = moved.put(back, places.at(back))
+    return places
+
+
+def rectangles(corners: FloatArray, outward: FloatArray) -> FloatArray:
+    """Return, for each quad, the rectangle with its mean sides that lies nearest to it.
+
+    Parameters
+    ----------
+    corners : (q, 4, 3) float array
+        Counter-clockwise seen from outside.
+    outward : (q, 3) float array
+        Vectors that point to the outside; a quad that is turned over asks to be turned back.
+
+    Returns
+    -------
+    (q, 4, 3) float array
+        Corners of the rectangles.
+    """
+    a, b, c, d = (corners[:, i] for i in range(4))
+    first, second = 0.5 * (b - a + c - d), 0.5 * (c - b + d - a)
+    width = np.linalg.norm(first, axis=1)[:, None]
+    height = np.linalg.norm(second, axis=1)[:, None]
+    first, second = _unit(first), _unit(second)
+    over = (np.cross(first, second) * outward).sum(axis=1) <= 0
+    # The diagonals of the square on unit vectors along the mean sides are orthogonal.
+    long, short = _unit(first + second), first - second
+    short = _unit(np.where(over[:, None], np.cross(long, outward), short))
+    u, v = np.sqrt(0.125) * width * (long + short), np.sqrt(0.125) * height * (long - short)
+    middle = corners.mean(axis=1)
+    return np.stack([middle - u - v, middle + u - v, middle + u + v, middle - u + v], axis=1)
+
+
+def _unit(vectors: FloatArray) -> FloatArray:
+    return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=1), 1e-300)[:, None])
