@@ -19,11 +19,11 @@ import numpy as np
 
 from crossview.case import Case
 from crossview.problem import Problem
-from crossview.session.mending import far_points
 from solvers.aligned import AlignedField, aligned_field
 from solvers.alternating import alternate
 from solvers.anisotropic import Iterate, MinimumNormNewton
 from solvers.isotropic import IsotropicSolver
+from solvers.placing import far_points
 from solvers.primitives import BUILTIN
 from solvers.progress import run
 from solvers.singularities import Singularity, default_corners

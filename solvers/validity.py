@@ -1,54 +1,78 @@
 """From any configuration to a valid one: singularities moved as little as need be.
 
-Newton on the holonomy defects (Abel-Jacobi conditions): moving singularity j by d_j changes defect
-i by (pi/2) k_j grad Z_i(x_j) . d_j, and the least d that takes all defects to zero is taken. The
-points walk straight on the surface. At the end they are inserted as vertices of the refined
-surface, where the defects of a fresh operator are corrected until they vanish too.
+Newton on the holonomy defects (Abel-Jacobi conditions), first towards zero, then, where the way
+is blocked, towards further quarter turns around single conditions: another layout of the same
+singularities. The points walk straight on the surface. At the end they are inserted as vertices of
+the refined surface, where the defects of a fresh operator are corrected until they vanish too.
 """
 
 from __future__ import annotations
 
-from collections.abc import Generator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Generator, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import product
+from typing import Literal
 
 import numpy as np
 
-from solvers.discretization import QUARTER
+from solvers.discretization import Condition
 from solvers.errors import SingularityError
-from solvers.geodesics import straightest
-from solvers.holonomy import Holonomy
 from solvers.isotropic import IsotropicSolver
-from solvers.progress import Progress
-from solvers.refinement import refine_at
+from solvers.pairs import pair_at
+from solvers.placing import far_points
+from solvers.progress import Progress, relayed
 from solvers.singularities import Singularity, require_budget
 from solvers.surface import TriSurface
-from solvers.triangulation import BoolArray, FloatArray, wrap
+from solvers.triangulation import FloatArray
+from solvers.validity_search import TOLERANCE, TOO_FEW, Blocked, Moved, Search
 
-TOLERANCE = np.radians(1e-6)
-LONGEST_STEP = 0.1
-"""Longest move of a singularity in one step, in square roots of the surface's area."""
+__all__ = ["TOLERANCE", "Moved", "Offer", "ValidityError", "make_valid"]
 
-CLOSEST = 0.02
-"""How near singularities may come to each other, in the same unit."""
+FARTHER = 8
+"""How many layouts that are farther off are tried for an offer."""
+
+SITES, AIMS = 3, 3
+"""How many places, and how many layouts at each, are tried for one more pair."""
 
 
 @dataclass(frozen=True)
-class Moved(Progress):
-    """A step on the way to a valid configuration.
+class Offer:
+    """What helps where moving the singularities to the nearest layouts does not.
 
     Parameters
     ----------
-    stage, fraction
-        As in `Progress`.
-    singularities : tuple of Singularity
-        Where they are.
-    defects : (c,) float array
-        Their holonomy defects, radians.
+    kind : {"turns", "pair", "anisotropic"}
+        Another holonomy integer, one more pair, or another method.
+    label : str
+        In plain words, as an imperative.
+    singularities : tuple of Singularity or None
+        The valid configuration that it leads to, tried and verified; None: none is needed.
     """
 
-    singularities: tuple[Singularity, ...]
-    defects: FloatArray
+    kind: Literal["turns", "pair", "anisotropic"]
+    label: str
+    singularities: tuple[Singularity, ...] | None = None
+
+
+class ValidityError(SingularityError):
+    """A configuration that could not be made valid.
+
+    Parameters
+    ----------
+    what, where, remedy : str
+        As in `CrossviewError`.
+    condition : int
+        The holonomy condition in the way.
+    offers : tuple of Offer
+        What helps, the least change first.
+    """
+
+    def __init__(
+        self, what: str, where: str, remedy: str, condition: int, offers: tuple[Offer, ...]
+    ) -> None:
+        super().__init__(what, where, remedy)
+        self.condition = condition
+        self.offers = offers
 
 
 def make_valid(
@@ -78,156 +102,152 @@ def make_valid(
     Raises
     ------
     SingularityError
-        If the index budget is missed, or there is no valid configuration near enough; it says
-        which condition is in the way.
+        If the index budget is missed.
+    ValidityError
+        If there is no valid configuration near enough; it says which condition is in the way and
+        why, and what helps.
     """
-    start = tuple(singularities)
-    _refuse_impossible(surface, start)
     solver = IsotropicSolver(surface, corners)
-    require_budget(surface, start, solver.corners)
-    guide = solver.holonomy
-    search = _Search(surface, guide, start)
-    first: SingularityError | None = None
-    for goal in _goals(guide.defects(start)):
-        try:
-            moved = yield from search.approach(start, goal)
-            return (yield from search.verify(moved, corners, levels))
-        except SingularityError as error:
-            first = first or error
-    raise first if first else AssertionError  # there is always a first goal
+    require_budget(surface, singularities, solver.corners)
+    attempt = _Attempt(solver, corners, levels)
+    return (yield from attempt.make_valid(tuple(singularities)))
 
 
-def _refuse_impossible(surface: TriSurface, singularities: Sequence[Singularity]) -> None:
-    indices = sorted(s.index for s in singularities)
-    if surface.genus == 1 and not surface.boundary_loops and indices == [-1, 1]:
-        raise SingularityError(
-            "a torus with one valence 3 and one valence 5 is never valid, wherever they are",
-            "Izmestiev et al. 2013",
-            "add one more pair of singularities",
-        )
-
-
-def _goals(defects: FloatArray) -> list[FloatArray]:
-    """Return the multiples of a quarter turn to aim at, the nearest first."""
-    sides = [np.sign(r) if r else 1.0 for r in defects]
-    shifts = [
-        QUARTER * np.array(chosen) * sides
-        for chosen in product((0, 1), repeat=len(defects))
-        if sum(chosen) <= 2
-    ]
-    return sorted(shifts, key=lambda shift: float(np.linalg.norm(defects - shift)))
-
-
-class _Search:
-    """Newton steps on one surface."""
+class _Attempt:
+    """Tries on one surface; the operator and its potentials are kept."""
 
     def __init__(
-        self, surface: TriSurface, guide: Holonomy, singularities: Sequence[Singularity]
+        self, solver: IsotropicSolver, corners: Mapping[int, int] | None, levels: int
     ) -> None:
-        self._surface = surface
-        self._guide = guide
-        self._unit = float(np.sqrt(surface.area))
-        self._index = np.array([s.index for s in singularities], dtype=np.float64)
-        self._free = np.array([not s.locked for s in singularities]) & (self._index != 0)
+        self._surface = solver.surface
+        self._guide = solver.holonomy
+        self._corners = corners
+        self._levels = levels
 
-    def approach(
-        self, singularities: tuple[Singularity, ...], goal: FloatArray, limit: int = 60
-    ) -> Generator[Progress, None, tuple[Singularity, ...]]:
-        """Follow the potentials of the surface to where the defects equal the goal."""
-        remaining = self._guide.defects(singularities) - goal
-        for _ in range(limit):
-            worst = float(np.abs(remaining).max(initial=0.0))
-            if worst < TOLERANCE / 10:
-                return singularities
-            moved = self._advance(singularities, remaining)
-            # Steps are short, so the defects have changed by less than an eighth of a turn.
-            change = wrap(self._guide.defects(moved) - goal - remaining, QUARTER)
-            singularities, remaining = moved, remaining + change
-            done = 1 - float(np.log(max(worst, TOLERANCE) / TOLERANCE)) / 25
-            yield Moved("making valid", max(0.0, done), singularities, remaining)
-        raise self._stuck(remaining)
+    def make_valid(self, start: tuple[Singularity, ...]) -> Generator[Progress, None, Moved]:
+        """Take the nearest layout that can be reached, or say what helps."""
+        if _impossible(self._surface, start):
+            why, remaining = "", self._guide.defects(start)
+        else:
+            try:
+                return (yield from self._nearest(start, _near(self._guide.defects(start))))
+            except Blocked as blocked:
+                why, remaining = blocked.why, blocked.remaining
+        offers = yield from self._offers(start, why)
+        raise _refusal(why, remaining, self._guide.conditions, offers)
 
-    def verify(
-        self,
-        singularities: tuple[Singularity, ...],
-        corners: Mapping[int, int] | None,
-        levels: int,
-        limit: int = 12,
+    def _nearest(
+        self, start: tuple[Singularity, ...], aims: Sequence[tuple[int, ...]]
     ) -> Generator[Progress, None, Moved]:
-        """Correct what a fresh operator on the refined surface still finds."""
-        for _ in range(limit):
-            refinement = refine_at(self._surface, [s.point for s in singularities], levels)
-            fine = refinement.surface
-            inserted = [
-                replace(s, point=fine.point_at_vertex(int(v)))
-                for s, v in zip(singularities, refinement.vertices, strict=True)
-            ]
-            defects = IsotropicSolver(fine, corners).holonomy.defects(inserted)
-            yield Moved("verifying", 0.9, singularities, defects)
-            if np.abs(defects).max(initial=0.0) < TOLERANCE:
-                return Moved("valid", 1.0, singularities, defects)
-            singularities = self._advance(singularities, defects)
-        raise self._stuck(defects)
+        """Try layouts one after the other; what blocks the first tells why all failed."""
+        first: Blocked | None = None
+        for turns in aims:
+            search = Search(self._surface, self._guide, start)
+            try:
+                moved = yield from search.approach(start, turns)
+                return (yield from search.verify(moved, turns, self._corners, self._levels))
+            except Blocked as blocked:
+                first = first or blocked
+                if first.why == TOO_FEW:
+                    break
+        raise first or Blocked(TOO_FEW, self._guide.defects(start))
 
-    def _step(
-        self, singularities: tuple[Singularity, ...], remaining: FloatArray, free: BoolArray
-    ) -> FloatArray:
-        """Return the least moves (k, 2), in the triangles' frames, that undo the defects."""
-        gradients = self._guide.gradients([s.point for s in singularities])
-        weight = QUARTER * self._index * free
-        flat = (gradients * weight[:, None]).reshape(len(remaining), -1)
-        scale = np.linalg.svd(flat, compute_uv=False)
-        if len(scale) == 0 or scale[-1] * self._unit < 1e-4 or flat.shape[1] < len(remaining):
-            raise self._stuck(remaining, "too few singularities may move")
-        moves = -np.linalg.pinv(flat) @ remaining
-        return np.asarray(moves.reshape(-1, 2))
+    def _offers(
+        self, start: tuple[Singularity, ...], why: str
+    ) -> Generator[Progress, None, tuple[Offer, ...]]:
+        found = []
+        if why not in ("", TOO_FEW):
+            farther = yield from self._tried("trying other layouts", start, self._far(start))
+            if farther is not None:
+                turns = _in_words(farther.turns, self._guide.conditions)
+                found.append(Offer("turns", f"Aim at {turns}", farther.singularities))
+        sites = yield from far_points(self._surface, start, SITES)
+        for site in sites:
+            try:
+                more = (*start, *pair_at(self._surface, start, site))
+            except SingularityError:  # no room here
+                continue
+            aims = _near(self._guide.defects(more))[:AIMS]
+            paired = yield from self._tried("trying one more pair", more, aims)
+            if paired is not None:
+                place = ", ".join(f"{x:.3g}" for x in self._surface.position(site))
+                found.append(
+                    Offer("pair", f"Add a pair of 3 and 5 near ({place})", paired.singularities)
+                )
+                break
+        return (*found, Offer("anisotropic", "Solve the anisotropic field"))
 
-    def _advance(
-        self, singularities: tuple[Singularity, ...], remaining: FloatArray
-    ) -> tuple[Singularity, ...]:
-        """Take the step, cut so that the defects fall; who would come too near stays behind."""
-        free = self._free.copy()
-        now, before = self._guide.defects(singularities), float(np.linalg.norm(remaining))
-        while True:
-            step = self._step(singularities, remaining, free)
-            longest = float(np.linalg.norm(step, axis=1).max())
-            length = min(1.0, LONGEST_STEP * self._unit / max(longest, 1e-300))
-            near = np.zeros(len(free), dtype=bool)
-            for _ in range(6):
-                moved = self._moved(singularities, length * step)
-                near = self._too_near(moved)
-                change = wrap(self._guide.defects(moved) - now, QUARTER)
-                if not near.any() and float(np.linalg.norm(remaining + change)) < before:
-                    return moved
-                length /= 2
-            if not (near & free).any():
-                raise self._stuck(remaining)
-            free &= ~near
+    def _tried(
+        self, stage: str, start: tuple[Singularity, ...], aims: Sequence[tuple[int, ...]]
+    ) -> Generator[Progress, None, Moved | None]:
+        """Return where a try for an offer leads; None where it is blocked."""
 
-    def _moved(
-        self, singularities: tuple[Singularity, ...], step: FloatArray
-    ) -> tuple[Singularity, ...]:
-        return tuple(
-            replace(s, point=straightest(self._surface, s.point, d)) if free else s
-            for s, d, free in zip(singularities, step, self._free, strict=True)
-        )
+        def plainly(step: Progress) -> Progress:
+            return Progress(stage, step.fraction)
 
-    def _too_near(self, singularities: tuple[Singularity, ...]) -> BoolArray:
-        """Return which singularities are too near to each other or to the boundary."""
-        x = self._surface.positions([s.point for s in singularities])
-        gaps = np.linalg.norm(x[:, None] - x[None], axis=2)
-        np.fill_diagonal(gaps, np.inf)
-        rim = self._surface.vertices[self._surface.boundary_vertices]
-        off_rim = np.linalg.norm(x[:, None] - rim[None], axis=2).min(axis=1, initial=np.inf)
-        return np.minimum(gaps.min(axis=1), off_rim) < CLOSEST * self._unit
+        try:
+            return (yield from relayed(self._nearest(start, aims), plainly))
+        except Blocked:
+            return None
 
-    def _stuck(
-        self, defects: FloatArray, why: str = "the way there is blocked"
-    ) -> SingularityError:
-        worst = int(np.argmax(np.abs(defects)))
-        label = self._guide.conditions[worst].label
-        return SingularityError(
-            f"the configuration cannot be made valid by moving its singularities: {why}",
-            f"{label}, {np.degrees(abs(defects[worst])):.3g} degrees off",
-            "unlock or add a pair of singularities, or solve the anisotropic field",
-        )
+    def _far(self, start: tuple[Singularity, ...]) -> list[tuple[int, ...]]:
+        """Return layouts beyond those of `_near`, one condition a quarter turn or two farther."""
+        defects = self._guide.defects(start)
+        tried = set(_near(defects))
+        alone = np.eye(len(defects), dtype=int)
+        aims = [tuple((n * row).tolist()) for row in alone for n in (-2, -1, 1, 2)]
+        return _sorted(defects, (turns for turns in aims if turns not in tried))[:FARTHER]
+
+
+def _impossible(surface: TriSurface, singularities: Sequence[Singularity]) -> bool:
+    """Whether this is a torus with one valence 3 and one valence 5 (Izmestiev et al. 2013)."""
+    indices = sorted(s.index for s in singularities)
+    return surface.genus == 1 and not surface.boundary_loops and indices == [-1, 1]
+
+
+def _near(defects: FloatArray) -> list[tuple[int, ...]]:
+    """Return the quarter turns to aim at, the nearest first: on the defects' own side."""
+    sides = [int(np.sign(r)) or 1 for r in defects]
+    aims = (
+        tuple(n * side for n, side in zip(chosen, sides, strict=True))
+        for chosen in product((0, 1), repeat=len(defects))
+        if sum(chosen) <= 2
+    )
+    return _sorted(defects, aims)
+
+
+def _sorted(defects: FloatArray, aims: Iterator[tuple[int, ...]]) -> list[tuple[int, ...]]:
+    quarters = defects / (np.pi / 2)
+    return sorted(aims, key=lambda turns: float(np.linalg.norm(quarters - turns)))
+
+
+def _in_words(turns: Sequence[int], conditions: Sequence[Condition]) -> str:
+    parts = [
+        f"{90 * n:+d} degrees {_around(condition)}"
+        for n, condition in zip(turns, conditions, strict=True)
+        if n
+    ]
+    return " and ".join(parts) or "the nearest layout"
+
+
+def _around(condition: Condition) -> str:
+    return condition.label if condition.kind == "boundary" else f"around {condition.label}"
+
+
+def _refusal(
+    why: str, defects: FloatArray, conditions: Sequence[Condition], offers: tuple[Offer, ...]
+) -> ValidityError:
+    worst = int(np.argmax(np.abs(defects)))
+    remedy = " or ".join(offer.label[:1].lower() + offer.label[1:] for offer in offers)
+    if not why:
+        what = "a torus with one valence 3 and one valence 5 is never valid, wherever they are"
+        return ValidityError(what, "Izmestiev et al. 2013", remedy, worst, offers)
+    if why == TOO_FEW:
+        remedy = f"unlock some, or {remedy}"
+    return ValidityError(
+        f"the configuration cannot be made valid by moving its singularities: {why}",
+        f"{conditions[worst].label}, {np.degrees(abs(defects[worst])):.3g} degrees off",
+        remedy,
+        worst,
+        offers,
+    )

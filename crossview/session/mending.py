@@ -5,11 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Generator
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-from scipy.sparse import csr_array
-from scipy.sparse.csgraph import dijkstra
-
 from crossview.session.commands import (
     MAX_VALENCE,
     MIN_VALENCE,
@@ -19,10 +14,9 @@ from crossview.session.commands import (
     RemoveSingularities,
 )
 from crossview.session.document import Document
-from solvers.points import SurfacePoint
+from solvers.placing import far_points
 from solvers.progress import Progress
 from solvers.singularities import Singularity
-from solvers.surface import TriSurface
 
 MOST_ADDED = 64
 
@@ -87,37 +81,3 @@ def _ready(command: Command) -> Generator[Progress, None, Command]:
 def _added(document: Document, valence: int, count: int) -> Generator[Progress, None, Command]:
     points = yield from far_points(document.surface, document.singularities, count)
     return AddSingularities(tuple(Singularity(point, valence) for point in points))
-
-
-def far_points(
-    surface: TriSurface, singularities: tuple[Singularity, ...], count: int
-) -> Generator[Progress, None, tuple[SurfacePoint, ...]]:
-    """Place `count` points far from the boundary, from `singularities` and from each other.
-
-    Each is the vertex farthest, along edges, from all that came before (Gonzalez 1985); on a closed
-    surface without singularities the first is the vertex farthest from the centroid.
-    """
-    graph = _edge_graph(surface)
-    used = [surface.faces[s.point.face][np.argmax(s.point.barycentric)] for s in singularities]
-    sources = np.concatenate([*surface.boundary_loops, np.asarray(used, dtype=np.int64)])
-    if sources.size:
-        distance = dijkstra(graph, indices=np.unique(sources).astype(np.int64), min_only=True)
-    else:
-        distance = np.linalg.norm(surface.vertices - surface.vertices.mean(axis=0), axis=1)
-    chosen: list[int] = []
-    for k in range(count):
-        yield Progress("placing singularities", k / count)
-        chosen.append(int(np.argmax(distance)))
-        from_new = dijkstra(graph, indices=chosen[-1])
-        distance = np.minimum(distance, from_new) if chosen[1:] or sources.size else from_new
-    return tuple(surface.point_at_vertex(vertex) for vertex in chosen)
-
-
-def _edge_graph(surface: TriSurface) -> csr_array:
-    start, end = surface.edges[:, 0], surface.edges[:, 1]
-    length: NDArray[np.float64] = np.linalg.norm(
-        surface.vertices[end] - surface.vertices[start], axis=1
-    )
-    n = surface.n_vertices
-    both = (np.concatenate([start, end]), np.concatenate([end, start]))
-    return csr_array((np.concatenate([length, length]), both), shape=(n, n))

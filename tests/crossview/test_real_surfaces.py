@@ -8,7 +8,7 @@ import pytest
 
 from crossview.case import Case
 from crossview.problem import Problem
-from crossview.session.mending import far_points
+from solvers.placing import far_points
 from solvers.progress import run
 
 # genus, boundary loops, required index sum

@@ -4,7 +4,8 @@ import pytest
 from crossview.case import Case
 from crossview.session.commands import AddSingularities, ChangeValence, RemoveSingularities
 from crossview.session.document import Document
-from crossview.session.mending import far_points, mendings
+from crossview.session.mending import mendings
+from solvers.placing import far_points
 from solvers.progress import run
 from solvers.singularities import Singularity
 

@@ -1,0 +1,292 @@
+"""Newton steps on the holonomy defects, with singularities that keep their distance."""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from solvers.discretization import QUARTER
+from solvers.geodesics import straightest
+from solvers.holonomy import Holonomy
+from solvers.isotropic import IsotropicSolver
+from solvers.points import SurfacePoint
+from solvers.progress import Progress
+from solvers.refinement import Refinement, refine_at
+from solvers.singularities import Singularity
+from solvers.spacing import Spacing
+from solvers.surface import TriSurface
+from solvers.triangulation import BoolArray, FloatArray, IntArray, wrap
+
+TOLERANCE = np.radians(1e-6)
+LONGEST_STEP = 0.1
+"""Longest move of a singularity in one step, in square roots of the surface's area."""
+
+HALVINGS, CONTACTS = 7, 4
+"""How often a step is halved; how often it is bent around what it would come too near to."""
+
+FREE_CORRECTIONS = 3
+"""How many corrections may take singularities into other triangles."""
+
+SAMPLES = 200
+"""At how many triangles the potentials of two surfaces are compared."""
+
+TOO_FEW = "too few singularities may move"
+CROWDED = "singularities would come too near to each other or to the boundary"
+STALLED = "no small move brings them nearer"
+UNSETTLED = "the surface is too coarse for its defects to be told"
+
+
+@dataclass(frozen=True)
+class Moved(Progress):
+    """A step on the way to a valid configuration.
+
+    Parameters
+    ----------
+    stage, fraction
+        As in `Progress`.
+    singularities : tuple of Singularity
+        Where they are.
+    defects : (c,) float array
+        Their holonomy defects, radians.
+    turns : tuple of int
+        The quarter turns that each condition is taken to: 0 the nearest, else another layout.
+    """
+
+    singularities: tuple[Singularity, ...]
+    defects: FloatArray
+    turns: tuple[int, ...]
+
+
+class Blocked(Exception):
+    """The way to the aim ends.
+
+    Parameters
+    ----------
+    why : str
+        In plain words.
+    remaining : (c,) float array
+        What is left of the defects, radians.
+    """
+
+    def __init__(self, why: str, remaining: FloatArray) -> None:
+        super().__init__(why)
+        self.why = why
+        self.remaining = remaining
+
+
+class Search:
+    """Newton steps on one surface from one configuration.
+
+    Moving singularity j by d_j changes defect i by (pi/2) k_j grad Z_i(x_j) . d_j; of the moves
+    that take all defects to their aims the least is taken. Where some would come too near to each
+    other or to the boundary, their least distance becomes one more equation of the step.
+
+    Parameters
+    ----------
+    surface : TriSurface
+        The surface.
+    guide : Holonomy
+        Its holonomy potentials.
+    singularities : sequence of Singularity
+        The configuration; those locked, and those of index 0, stay.
+    """
+
+    def __init__(
+        self, surface: TriSurface, guide: Holonomy, singularities: Sequence[Singularity]
+    ) -> None:
+        self._surface = surface
+        self._guide = guide
+        self._unit = float(np.sqrt(surface.area))
+        self._index = np.array([s.index for s in singularities], dtype=np.float64)
+        self._free = np.array([not s.locked for s in singularities], dtype=bool)
+        self._free &= self._index != 0
+        self._spacing = Spacing(surface, singularities, self._free)
+
+    def approach(
+        self, singularities: tuple[Singularity, ...], turns: tuple[int, ...], limit: int = 60
+    ) -> Generator[Progress, None, tuple[Singularity, ...]]:
+        """Follow the potentials of the surface to where the defects are multiples of 90 degrees.
+
+        Parameters
+        ----------
+        singularities : tuple of Singularity
+            Where to start.
+        turns : tuple of int
+            The quarter turn that each defect is taken to.
+        limit : int, optional
+            Of the number of steps.
+
+        Raises
+        ------
+        Blocked
+            The way ends before.
+        """
+        goal = QUARTER * np.array(turns, dtype=np.float64)
+        remaining = self._guide.defects(singularities) - goal
+        for _ in range(limit):
+            worst = float(np.abs(remaining).max(initial=0.0))
+            if worst < TOLERANCE / 10:
+                return singularities
+            moved = self._advance(singularities, remaining, self._free)
+            # Steps are short, so the defects have changed by less than an eighth of a turn.
+            change = wrap(self._guide.defects(moved) - goal - remaining, QUARTER)
+            singularities, remaining = moved, remaining + change
+            done = 1 - float(np.log(max(worst, TOLERANCE) / TOLERANCE)) / 25
+            yield Moved("making valid", max(0.0, done), singularities, remaining, turns)
+        raise Blocked(STALLED, remaining)
+
+    def verify(
+        self,
+        singularities: tuple[Singularity, ...],
+        turns: tuple[int, ...],
+        corners: Mapping[int, int] | None,
+        levels: int,
+        limit: int = 24,
+    ) -> Generator[Progress, None, Moved]:
+        """Correct what a fresh operator on the refined surface still finds.
+
+        How the surface is refined depends on the small triangles that the singularities are in,
+        and the operator's defects jump a little where it changes. So after the first corrections
+        those stay that would leave theirs, as long as the others can do the rest.
+
+        Parameters
+        ----------
+        singularities, turns
+            What `approach` has reached.
+        corners, levels
+            As of `solvers.validity.make_valid`.
+        limit : int, optional
+            Of the number of corrections.
+
+        Raises
+        ------
+        Blocked
+            The fresh operator's defects do not vanish.
+        """
+        for correction in range(limit):
+            refinement = refine_at(self._surface, [s.point for s in singularities], levels)
+            fine = refinement.surface
+            inserted = [
+                replace(s, point=fine.point_at_vertex(int(v)))
+                for s, v in zip(singularities, refinement.vertices, strict=True)
+            ]
+            fresh = IsotropicSolver(fine, corners).holonomy
+            defects = fresh.defects(inserted)
+            yield Moved("verifying", 0.9, singularities, defects, turns)
+            if np.abs(defects).max(initial=0.0) < TOLERANCE:
+                return Moved("valid", 1.0, singularities, defects, turns)
+            defects = self._on_own_loops(refinement, fresh, defects)
+            free = self._free
+            if correction >= FREE_CORRECTIONS:
+                free = self._settled(singularities, defects, 2**levels)
+            singularities = self._advance(singularities, defects, free)
+        raise Blocked(UNSETTLED, defects)
+
+    def _on_own_loops(
+        self, refinement: Refinement, fresh: Holonomy, defects: FloatArray
+    ) -> FloatArray:
+        """Return the defects of a refined surface around the loops of this one.
+
+        Handle loops are chosen anew on each surface. Around sums of loops the defects add up, and
+        the gradients of the potentials tell which sums they are.
+        """
+        fine = refinement.surface
+        if fine.genus == 0:
+            return defects
+        faces = np.unique(np.linspace(0, fine.n_faces - 1, SAMPLES).astype(np.int64)).tolist()
+        third = 1 / 3
+        points = [SurfacePoint(face, (third, third, third)) for face in faces]
+        there = _flattened(fine, points, fresh.gradients(points))
+        points = [refinement.lift(point) for point in points]
+        here = _flattened(self._surface, points, self._guide.gradients(points))
+        sums = np.rint(there @ np.linalg.pinv(here))
+        return wrap(np.rint(np.linalg.pinv(sums)) @ defects, QUARTER)
+
+    def _settled(
+        self, singularities: tuple[Singularity, ...], defects: FloatArray, parts: int
+    ) -> BoolArray:
+        """Return who moves so that nobody leaves the small triangle it is in."""
+        free = self._free.copy()
+        cells = _cells(singularities, parts)
+        while True:
+            try:
+                matrix = self._matrix(singularities, defects, free)
+            except Blocked:  # the others cannot do it alone
+                return self._free
+            moved = self._moved(singularities, _least(matrix, -defects))
+            leaves = np.any(_cells(moved, parts) != cells, axis=1)
+            if not (leaves & free).any():
+                return free
+            free &= ~leaves
+
+    def _advance(
+        self, singularities: tuple[Singularity, ...], remaining: FloatArray, free: BoolArray
+    ) -> tuple[Singularity, ...]:
+        """Take the least step, cut so that the defects fall, bent so that distances are kept."""
+        now, before = self._guide.defects(singularities), float(np.linalg.norm(remaining))
+        matrix = self._matrix(singularities, remaining, free)
+        longest = np.linalg.norm(_least(matrix, -remaining), axis=1).max()
+        reach = LONGEST_STEP * self._unit
+        share, why = min(1.0, reach / max(float(longest), 1e-300)), STALLED
+        for _ in range(HALVINGS):
+            rows, gaps = self._spacing.none
+            for _ in range(CONTACTS):
+                both = np.concatenate([matrix, rows])
+                step = _least(both, np.concatenate([-share * remaining, gaps]))
+                if np.linalg.norm(step, axis=1).max() > 2 * reach:
+                    break
+                moved = self._moved(singularities, step)
+                near = self._spacing.too_near(moved)
+                change = wrap(self._guide.defects(moved) - now, QUARTER)
+                if not len(near) and float(np.linalg.norm(remaining + change)) < before:
+                    return moved
+                if not len(near):
+                    break
+                why = CROWDED
+                more = self._spacing.equations(singularities, near)
+                rows, gaps = np.concatenate([rows, more[0]]), np.concatenate([gaps, more[1]])
+            share /= 2
+        raise Blocked(why, remaining)
+
+    def _matrix(
+        self, singularities: tuple[Singularity, ...], remaining: FloatArray, free: BoolArray
+    ) -> FloatArray:
+        """Return (c, 2 k): how the defects change with moves in the triangles' frames."""
+        gradients = self._guide.gradients([s.point for s in singularities])
+        weight = QUARTER * self._index * free
+        matrix = np.asarray((gradients * weight[:, None]).reshape(len(remaining), -1))
+        scale = np.linalg.svd(matrix, compute_uv=False)
+        if matrix.shape[1] < len(remaining) or scale[-1] * self._unit < 1e-4:
+            raise Blocked(TOO_FEW, remaining)
+        return matrix
+
+    def _moved(
+        self, singularities: tuple[Singularity, ...], step: FloatArray
+    ) -> tuple[Singularity, ...]:
+        return tuple(
+            replace(s, point=straightest(self._surface, s.point, d)) if free else s
+            for s, d, free in zip(singularities, step, self._free, strict=True)
+        )
+
+
+def _least(matrix: FloatArray, right: FloatArray) -> FloatArray:
+    """Return the least moves (k, 2) that solve the equations as well as can be."""
+    moves = np.linalg.lstsq(matrix, right, rcond=1e-9)[0]
+    return np.asarray(moves.reshape(-1, 2))
+
+
+def _flattened(
+    surface: TriSurface, points: Sequence[SurfacePoint], gradients: FloatArray
+) -> FloatArray:
+    """Return (c, 3 k) gradients in space from (c, k, 2) in the points' triangles."""
+    frames = np.stack(surface.face_frames, axis=1)[[point.face for point in points]]
+    return np.einsum("ckd,kdx->ckx", gradients, frames).reshape(len(gradients), -1)
+
+
+def _cells(singularities: Sequence[Singularity], parts: int) -> IntArray:
+    """Return (k, 4): triangles and which of the `parts` squared small ones in each."""
+    weights = np.array([s.point.barycentric for s in singularities]).reshape(-1, 3)
+    faces = np.array([s.point.face for s in singularities], dtype=np.int64)
+    return np.column_stack([faces, np.floor(weights * parts).astype(np.int64)])
