@@ -155,6 +155,8 @@ class Arrangement:
         The rectangles.
     curves : Curves
         What the arcs are parts of.
+    n_traces : int
+        How many of the curves are traces; the others are boundary loops.
     arc_curve : (A,) int array
         The curve each arc is part of.
     arc_span : (A, 2) float array
@@ -171,6 +173,7 @@ class Arrangement:
 
     tmesh: TMesh
     curves: Curves
+    n_traces: int
     arc_curve: IntArray
     arc_span: FloatArray
     node_curve: IntArray
@@ -320,8 +323,9 @@ def _add_ends(
         last = traces.offsets[i + 1] - 1
         length = float(chords.end[last])
         if traces.ends[i] == NODE:
-            back = int(traces.end_slot[i])
-            stations[i].append((length, int(traces.end_node[i]), back, -1))
+            node, back = int(traces.end_node[i]), int(traces.end_slot[i])
+            stations[i].append((length, node, back, -1))
+            build.curve[node], build.at[node] = int(i), length
             continue
         h = int(3 * chords.face[last] + chords.side_out[last])
         curve, chord = on_loop[h]
@@ -381,6 +385,7 @@ def _finished(
     return Arrangement(
         tmesh,
         curves,
+        n_traces,
         curve,
         span,
         np.array(build.curve, dtype=np.int64),
