@@ -22,6 +22,7 @@ from solvers.arrangement import (
 )
 from solvers.connections import best_turn, conditions, passing
 from solvers.crossings import crossings
+from solvers.patches import PatchMesh, sampled
 from solvers.progress import Progress
 from solvers.seamless import SeamlessFit
 from solvers.separatrices import Separatrices, as_curves, singular_nodes
@@ -94,6 +95,11 @@ class QuadLayout:
     def limit_cycles(self) -> int:
         """Number of separatrices that are limit cycles."""
         return self.separatrices.limit_cycles
+
+    @cached_property
+    def patch_mesh(self) -> PatchMesh:
+        """The rectangles, sampled for pictures."""
+        return sampled(self.surface, self.arrangement)
 
     @property
     def conforming(self) -> bool:
