@@ -13,8 +13,8 @@ from solvers.surface import TriSurface
 from solvers.tracing import AXES
 from solvers.triangulation import FloatArray, IntArray
 
-FINEST = 64
-"""Cells along a side of a patch at most."""
+COARSEST, FINEST = 16, 64
+"""Cells along a side of a patch."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,22 +48,21 @@ def sampled(surface: TriSurface, arrangement: Arrangement) -> PatchMesh:
     """
     tmesh, curves = arrangement.tmesh, arrangement.curves
     sides = tmesh.side_totals(tmesh.lengths)[:, :2]
-    cells = np.clip(np.ceil(sides / curves.chart.edge_length), 1, FINEST).astype(np.int64)
-    chords, parts, signs, ways, quads, patch = [], [], [], [], [], []
-    first = 0
-    for r, ((width, height), (w, h)) in enumerate(zip(sides, cells, strict=True)):
-        chord, part, sign = _along(arrangement, tmesh.side(r, 0), np.arange(w + 1) * width / w)
-        for values, one in ((chords, chord), (parts, part), (signs, sign)):
-            values.append(np.repeat(one, h + 1))
+    cells = np.clip(np.ceil(2 * sides / curves.chart.edge_length), COARSEST, FINEST).astype(
+        np.int64
+    )
+    starts, ways, quads, first = [], [], [], 0
+    for r, (height, (w, h)) in enumerate(zip(sides[:, 1], cells, strict=True)):
+        starts.append(np.repeat(_along(arrangement, tmesh.side(r, 0), w), h + 1, axis=1))
         ways.append(np.tile(1j * np.arange(h + 1) * height / h, w + 1))
         number = first + np.arange((w + 1) * (h + 1)).reshape(w + 1, h + 1)
         corners = [number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]]
         quads.append(np.stack(corners, axis=2).reshape(-1, 4))
-        patch.append(np.full(w * h, r))
         first += number.size
-    chord, part = np.concatenate(chords), np.concatenate(parts)
+    chord, part, sign = np.concatenate(starts, axis=1)
+    chord = chord.astype(np.int64)
     start, end = (ends[chord] for ends in ends_of(curves.chart, curves.chords))
-    along = AXES[curves.chords.axis[chord]] * np.concatenate(signs)
+    along = AXES[curves.chords.axis[chord]] * sign
     face, place = walk(
         curves.chart,
         curves.chords.face[chord],
@@ -72,33 +71,27 @@ def sampled(surface: TriSurface, arrangement: Arrangement) -> PatchMesh:
     )
     weights = barycentric_in(curves.chart, face, place)
     points = np.einsum("kc,kcd->kd", weights, surface.vertices[surface.faces[face]])
-    return PatchMesh(points, np.concatenate(quads), np.concatenate(patch))
+    patch = np.repeat(np.arange(len(quads)), [len(q) for q in quads])
+    return PatchMesh(points, np.concatenate(quads), patch)
 
 
-def _along(
-    arrangement: Arrangement, halfarcs: IntArray, places: FloatArray
-) -> tuple[IntArray, FloatArray, IntArray]:
-    """Return where places along a side of a rectangle are.
+def _along(arrangement: Arrangement, halfarcs: IntArray, cells: int) -> FloatArray:
+    """Return evenly spaced places (3, cells + 1) along a side of a rectangle.
 
-    Returns
-    -------
-    (k,) int array
-        A chord of a curve.
-    (k,) float array
-        How far along it, 0 to 1.
-    (k,) int array
-        1 or -1: whether the side runs along the curve or against it.
+    For each the chord of a curve, how far along it, 0 to 1, and 1 or -1: whether the side runs
+    along the curve or against it.
     """
     arc, backwards = halfarcs // 2, halfarcs % 2
     ends = np.cumsum(arrangement.tmesh.lengths[arc])
+    places = np.arange(cells + 1) * ends[-1] / cells
     on = np.minimum(np.searchsorted(ends, places), len(arc) - 1)
     start, end = arrangement.arc_span[arc].T
-    before = np.concatenate([[0.0], ends[:-1]])
-    beyond = places - before[on]
+    beyond = places - (ends - arrangement.tmesh.lengths[arc])[on]
     at = np.where(backwards[on], end[on] - beyond, start[on] + beyond)
-    chord, part = np.empty(len(on), dtype=np.int64), np.empty(len(on))
+    found = np.empty((3, len(on)))
     for i in np.unique(on):
         chosen = on == i
         curve = int(arrangement.arc_curve[arc[i]])
-        chord[chosen], part[chosen] = arrangement.curves.chords_at(curve, at[chosen])
-    return chord, part, 1 - 2 * backwards[on]
+        found[:2, chosen] = arrangement.curves.chords_at(curve, at[chosen])
+    found[2] = 1 - 2 * backwards[on]
+    return found
