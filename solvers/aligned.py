@@ -1,8 +1,9 @@
-"""The field aligned with every boundary: theta imposed, integrable or not.
+"""The field aligned with every boundary and feature: theta imposed, integrable or not.
 
 The paper solves for theta with known values on all boundaries and known jumps over the cut (section
 "Local manifold basis generation and theta initialization"). The holonomy potentials already hold
-the answer: the harmonic correction that takes the defects to zero.
+the answer: the harmonic correction that takes the defects to zero. With features a single-valued
+turn is added that aligns the field with them too.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ import numpy as np
 from solvers.crossfield import Convergence, CrossField
 from solvers.discretization import QUARTER
 from solvers.errors import CrossviewError
+from solvers.feature_alignment import align_with_features
 from solvers.integrability import Integrability
 from solvers.isotropic import IsotropicSolver
 from solvers.seamless import SeamlessMap, seamless_map
@@ -28,7 +30,7 @@ AS_IT_IS = Convergence()
 
 @dataclass(frozen=True, eq=False)
 class AlignedField:
-    """A boundary-aligned field, and the integrability problem around it.
+    """A field aligned with boundaries and features, and the integrability problem around it.
 
     Parameters
     ----------
@@ -38,17 +40,24 @@ class AlignedField:
         Corner values of the harmonic correction that aligns it.
     integrability : Integrability
         With the aligned field as its initial field.
+    turns : tuple of int
+        Quarter turns over each condition's path, besides those nearest to the isotropic field.
+    turned : (m, 3) float array, optional
+        What aligns it with features; None without any.
     """
 
     isotropic: CrossField
     correction: FloatArray
     integrability: Integrability
+    turns: tuple[int, ...]
+    turned: FloatArray | None = None
 
     def partly(self, fraction: float) -> Integrability:
         """Return the problem around the field with only a fraction of the correction."""
         i = self.integrability
         conjugate = self.isotropic.H[i.triangulation.faces] + fraction * self.correction
-        return Integrability(i.discretization, conjugate, i.quarter_turns)
+        turned = None if self.turned is None else fraction * self.turned
+        return Integrability(i.discretization, conjugate, i.quarter_turns, i.features, turned)
 
     @property
     def start(self) -> FloatArray:
@@ -105,6 +114,7 @@ class IntegratedField:
             defects=d.defects(theta, offsets),
             boundary_misalignment=d.boundary_misalignment(theta, offsets),
             max_closing_error=d.max_closing_error(theta, offsets, none),
+            feature_misalignment=d.feature_misalignment(theta, offsets),
             half_log_aspect=s,
             error_density=density,
             convergence=self.convergence,
@@ -116,7 +126,7 @@ def aligned_field(
     singularities: Sequence[Singularity],
     turns: Sequence[int] | None = None,
 ) -> AlignedField:
-    """Align the field of a configuration with every boundary and handle.
+    """Align the field of a configuration with every boundary, handle and feature.
 
     Parameters
     ----------
@@ -126,7 +136,8 @@ def aligned_field(
         At vertices.
     turns : sequence of int, optional
         Quarter turns to add over each condition's path; by default none, which is the multiple
-        nearest to the isotropic rotation. Others are different layouts.
+        nearest to the isotropic rotation; with features those that leave the field smoothest.
+        Others are different layouts.
 
     Returns
     -------
@@ -139,14 +150,20 @@ def aligned_field(
     SingularityError
         As `IsotropicSolver.solve`.
     """
-    field = solver.solve(singularities)
-    extra = np.zeros(len(field.defects)) if turns is None else np.asarray(turns, dtype=float)
-    if extra.shape != field.defects.shape:
+    field, d = solver.solve(singularities), solver.discretization
+    if turns is not None and len(turns) != len(field.defects):
         raise CrossviewError(
-            f"{extra.size} turns are given for {len(field.defects)} holonomy conditions",
+            f"{len(turns)} turns are given for {len(field.defects)} holonomy conditions",
             "turns",
             "give one whole number for each condition",
         )
-    correction = solver.holonomy.harmonic_correction(QUARTER * extra - field.defects)
-    conjugate = field.H[solver.surface.faces] + correction
-    return AlignedField(field, correction, Integrability(solver.discretization, conjugate))
+    conjugate, turned = field.H[solver.surface.faces], None
+    if len(d.features):
+        found = align_with_features(solver.holonomy, conjugate, field.defects, turns)
+        turns, turned = found.turns.tolist(), found.turned
+    chosen = tuple(turns or [0] * len(field.defects))
+    correction = solver.holonomy.harmonic_correction(QUARTER * np.array(chosen) - field.defects)
+    integrability = Integrability(
+        d, conjugate + correction, features=d.feature_halfedges, turned=turned
+    )
+    return AlignedField(field, correction, integrability, chosen, turned)

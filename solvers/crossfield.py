@@ -62,6 +62,8 @@ class CrossField:
         rho1^2 + rho2^2 in each triangle (paper, equation intError).
     convergence : Convergence
         How the solver came to E.
+    feature_misalignment : (c,) float array
+        Largest angle between the crosses and each feature curve, with sign, radians.
     """
 
     surface: TriSurface
@@ -77,6 +79,7 @@ class CrossField:
     half_log_aspect: FloatArray = field(repr=False)
     error_density: FloatArray = field(repr=False)
     convergence: Convergence
+    feature_misalignment: FloatArray = field(default_factory=lambda: np.zeros(0))
 
     @cached_property
     def H1(self) -> FloatArray:

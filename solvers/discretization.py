@@ -10,6 +10,7 @@ from typing import Literal
 import numpy as np
 
 from solvers.delaunay import DelaunayTriangulation, Located
+from solvers.features import Features, no_features
 from solvers.homology import DualTree, handle_loops
 from solvers.points import SurfacePoint
 from solvers.surface import TriSurface
@@ -49,7 +50,8 @@ class Condition:
 class Discretization:
     """The intrinsic Delaunay triangulation of a surface and the tree to walk it by.
 
-    Handle loops are edges of the surface and of the triangulation; the walk does not cross them.
+    Handle loops and features are edges of the surface and of the triangulation; the walk does not
+    cross handle loops.
 
     Parameters
     ----------
@@ -58,11 +60,17 @@ class Discretization:
     flips : bool, optional
         Whether to flip to Delaunay; without, the triangulation is the surface's own, and the
         operator may have negative weights where its triangles are obtuse.
+    features : Features, optional
+        Of the surface; by default none.
 
     Attributes
     ----------
     surface : TriSurface
         The surface.
+    features : Features
+        Those given.
+    feature_halfedges : (k,) int array
+        One halfedge of each feature edge, on the triangulation.
     handles : HandleLoops
         Handle loops of the surface.
     conditions : tuple of Condition
@@ -77,21 +85,23 @@ class Discretization:
         Halfedge of the longest boundary the crosses are aligned with; -1 on closed surfaces.
     """
 
-    def __init__(self, surface: TriSurface, *, flips: bool = True) -> None:
+    def __init__(
+        self, surface: TriSurface, *, flips: bool = True, features: Features | None = None
+    ) -> None:
         self.surface = surface
+        self.features = no_features(surface) if features is None else features
         own = surface.triangulation
         self.handles = handle_loops(own, surface.boundary_loops)
         starts = self._boundary_starts(own)
-        marks = np.zeros((1, len(own.twin)), dtype=np.int64)
         marked = np.array([*starts, *self.handles.closing], dtype=np.int64)
-        marks[0, marked] = np.arange(1, len(marked) + 1)
-        chain = np.concatenate([self.handles.chain, marks])
+        numbered = [_numbered(h, own) for h in (self.features.halfedges, marked)]
+        chain = np.concatenate([self.handles.chain, *numbered])
         fixed = chain[:-1] != 0 if flips else np.ones((1, len(own.twin)), dtype=bool)
         self.delaunay = DelaunayTriangulation(own, fixed, chain)
         self.triangulation: IntrinsicTriangulation = self.delaunay.triangulation
-        self.chain = self.delaunay.chain[:-1]
-        place = np.flatnonzero(self.delaunay.chain[-1])
-        moved = place[np.argsort(self.delaunay.chain[-1, place])].tolist()
+        self.chain = self.delaunay.chain[:-2]
+        self.feature_halfedges, places = (_places(row) for row in self.delaunay.chain[-2:])
+        moved = places.tolist()
         self.reference = moved[0] if starts else -1
         self.conditions = tuple(self._conditions(moved[: len(starts)], moved[len(starts) :]))
         self.tree = DualTree(self.triangulation, max(self.reference, 0) // 3, self.chain != 0)
@@ -305,8 +315,58 @@ class Discretization:
             Radians in (-pi/4, pi/4], in the order of the surface's boundary loops.
         """
         h, loop = self.boundary_loop_of
-        angle = self.closing(theta, offsets, h)
-        largest = np.zeros(len(self.surface.boundary_loops))
-        by_size = np.argsort(np.abs(angle), kind="stable")
-        largest[loop[by_size]] = angle[by_size]
-        return largest
+        return _largest(self.closing(theta, offsets, h), loop, len(self.surface.boundary_loops))
+
+    def feature_angles(self, theta: FloatArray, offsets: FloatArray) -> FloatArray:
+        """Return by how much the field turns against each feature edge at its midpoint.
+
+        Parameters
+        ----------
+        theta, offsets
+            As of `closing`.
+
+        Returns
+        -------
+        (k,) float array
+            Radians in (-pi/4, pi/4], in the order of the features' edges.
+        """
+        h = self.feature_halfedges
+        turned = theta[h // 3] + offsets.reshape(-1)[h] - self.triangulation.directions[h]
+        return wrap(turned, QUARTER)
+
+    def feature_misalignment(self, theta: FloatArray, offsets: FloatArray) -> FloatArray:
+        """Return the largest angle, with its sign, between crosses and each feature curve.
+
+        Parameters
+        ----------
+        theta, offsets
+            As of `closing`.
+
+        Returns
+        -------
+        (c,) float array
+            Radians in (-pi/4, pi/4], in the order of the features' curves.
+        """
+        angle = self.feature_angles(theta, offsets)
+        return _largest(angle, self.features.curve_of, len(self.features.curves))
+
+
+def _numbered(h: IntArray, triangulation: IntrinsicTriangulation) -> IntArray:
+    """Return a row (1, 3 m) of numbers on halfedges: 1, 2, ... on those given, in order."""
+    row = np.zeros((1, len(triangulation.twin)), dtype=np.int64)
+    row[0, h] = np.arange(1, len(h) + 1)
+    return row
+
+
+def _places(row: IntArray) -> IntArray:
+    """Return where the numbers 1, 2, ... are in a row of numbers on halfedges."""
+    place = np.flatnonzero(row)
+    return place[np.argsort(row[place])]
+
+
+def _largest(angle: FloatArray, group: IntArray, count: int) -> FloatArray:
+    """Return the largest of the angles (k,) in each group, with its sign."""
+    largest = np.zeros(count)
+    by_size = np.argsort(np.abs(angle), kind="stable")
+    largest[group[by_size]] = angle[by_size]
+    return largest

@@ -7,6 +7,7 @@ exactly when every defect is zero (paper, section "Valid singularity configurati
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import cached_property
 
 import numpy as np
 
@@ -43,7 +44,7 @@ class Holonomy:
         factorization: Factorization,
         corners: Mapping[int, int],
     ) -> None:
-        self._discretization = discretization
+        self.discretization = discretization
         t = discretization.triangulation
         h = t.edge_halfedges
         forms = np.zeros((len(self.conditions), len(t.twin)), dtype=np.int64)
@@ -72,7 +73,7 @@ class Holonomy:
     @property
     def conditions(self) -> tuple[Condition, ...]:
         """The 2 g + max(b - 1, 0) conditions."""
-        return self._discretization.conditions
+        return self.discretization.conditions
 
     def defects(self, singularities: Sequence[Singularity]) -> FloatArray:
         """Return the defects of a configuration, without solving.
@@ -87,7 +88,7 @@ class Holonomy:
         (2 g + max(b - 1, 0),) float array
             Radians in (-pi/4, pi/4]; meaningful when the index budget is met.
         """
-        faces, weights = self._discretization.place([s.point for s in singularities])
+        faces, weights = self.discretization.place([s.point for s in singularities])
         index = np.array([s.index for s in singularities], dtype=np.float64)
         potential = np.einsum("ckj,kj->ck", self._corner_values[:, faces], weights)
         return wrap(self._constant + QUARTER * potential @ index, QUARTER)
@@ -106,7 +107,7 @@ class Holonomy:
             In the frames of the points' triangles. Moving a singularity of index k_j by d
             changes defect i by (pi/2) k_j grad Z_i . d.
         """
-        t, at = self._discretization.triangulation, self._discretization.locate(points)
+        t, at = self.discretization.triangulation, self.discretization.locate(points)
         flat = np.einsum("cki,kid->dck", self._corner_values[:, at.face], t.hat_gradients[at.face])
         gradient = flat[0] + 1j * flat[1]
         gradient *= np.exp(-1j * at.turn)
@@ -129,11 +130,15 @@ class Holonomy:
         (m, 3) float array
             Values at the corners of the triangulation's triangles.
         """
-        t = self._discretization.triangulation
+        coefficients = np.linalg.solve(self.harmonic_energy, turns)
+        return np.einsum("c,cmi->mi", coefficients, self._corner_values)
+
+    @cached_property
+    def harmonic_energy(self) -> FloatArray:
+        """(c, c) products <eta_i, eta_j> = -<gamma_i, eta_j> of the harmonic 1-forms."""
+        t = self.discretization.triangulation
         h = t.edge_halfedges
         after = next_halfedge(h)
-        values = self._corner_values.reshape(len(turns), len(t.twin))
+        values = self._corner_values.reshape(len(self._paths), len(t.twin))
         harmonic = values[:, after] - values[:, h]
-        product = -(self._paths[:, h] * t.weights[h]) @ harmonic.T
-        coefficients = np.linalg.solve(product, turns)
-        return np.einsum("c,cmi->mi", coefficients, self._corner_values)
+        return np.asarray(-(self._paths[:, h] * t.weights[h]) @ harmonic.T)

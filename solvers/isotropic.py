@@ -18,6 +18,7 @@ from solvers.discretization import CLEARANCE, QUARTER, Discretization
 from solvers.embedded import split_offsets
 from solvers.errors import SingularityError
 from solvers.factorization import factorized
+from solvers.features import Features
 from solvers.holonomy import Holonomy
 from solvers.operators import lumped_mass, midpoint_offsets, stiffness
 from solvers.singularities import Singularity, default_corners, require_budget
@@ -37,6 +38,8 @@ class IsotropicSolver:
         reads from the interior angles.
     flips : bool, optional
         As in `Discretization`.
+    features : Features, optional
+        Of the surface; the field is not aligned with them, but says how far off it is.
 
     Raises
     ------
@@ -50,10 +53,11 @@ class IsotropicSolver:
         corners: Mapping[int, int] | None = None,
         *,
         flips: bool = True,
+        features: Features | None = None,
     ) -> None:
         self.surface = surface
         self.corners = dict(default_corners(surface) if corners is None else corners)
-        self.discretization = Discretization(surface, flips=flips)
+        self.discretization = Discretization(surface, flips=flips, features=features)
         matrix = stiffness(self.discretization.triangulation)
         # H is unique up to a constant: the first vertex is pinned, the mean subtracted after.
         self.factorization = factorized(matrix[1:, 1:])
@@ -108,6 +112,7 @@ class IsotropicSolver:
             half_log_aspect=np.broadcast_to(0.0, (self.surface.n_faces, 3)),
             error_density=np.broadcast_to(0.0, self.surface.n_faces),
             convergence=Convergence(),
+            feature_misalignment=d.feature_misalignment(theta, offsets),
         )
 
     def cut_graph(self, singularities: Sequence[Singularity]) -> IntArray:

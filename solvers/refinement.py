@@ -16,7 +16,7 @@ import numpy as np
 from solvers.delaunay import DelaunayTriangulation
 from solvers.points import SurfacePoint
 from solvers.surface import TriSurface, barycentric
-from solvers.triangulation import FloatArray, IntArray
+from solvers.triangulation import BoolArray, FloatArray, IntArray
 
 SNAP = 1e-5
 """Distance from an edge or vertex below which a point is moved onto it, in longest edges of the
@@ -64,7 +64,12 @@ class Refinement:
         return _surface_point(parent, weights)
 
 
-def refine_at(surface: TriSurface, points: Sequence[SurfacePoint], levels: int = 3) -> Refinement:
+def refine_at(
+    surface: TriSurface,
+    points: Sequence[SurfacePoint],
+    levels: int = 3,
+    feature_edges: IntArray | None = None,
+) -> Refinement:
     """Return the surface with vertices at the given points and smaller triangles around them.
 
     Parameters
@@ -75,12 +80,17 @@ def refine_at(surface: TriSurface, points: Sequence[SurfacePoint], levels: int =
         Where; on vertices, on edges or inside triangles.
     levels : int, optional
         How many times edges are halved near the points; 0 only inserts them.
+    feature_edges : (k,) int array, optional
+        Edges of the surface that crosses are to follow. Triangles with more than one of these and
+        boundary edges are split, for no cross can follow two sides of one triangle.
 
     Returns
     -------
     Refinement
     """
     mesh = _Mesh(surface, points)
+    if feature_edges is not None and len(feature_edges):
+        mesh.split_between(surface, feature_edges)
     for _ in range(levels if points else 0):
         mesh.split_in_four(mesh.neighbourhood())
     inserted = np.array([mesh.insert(i) for i in range(len(points))], dtype=np.int64)
@@ -141,12 +151,40 @@ class _Mesh:
         edge = edge.reshape(-1, 3)
         marked = np.zeros(len(first), dtype=bool)
         marked[edge[np.isin(nearby, red)]] = True
-        midpoint = np.full(len(first), -1, dtype=np.int64)
+        self._halve(nearby, edge, ends[first], marked)
+
+    def split_between(self, surface: TriSurface, feature_edges: IntArray) -> None:
+        """Split triangles with several edges that crosses are to follow; before all else.
+
+        Those with two at their third edge, those with three at their middle.
+        """
+        edge = surface.face_edges
+        follows = surface.edge_faces[:, 1] < 0
+        follows[feature_edges] = True
+        count = follows[edge].sum(axis=1)
+        marked = np.zeros(len(follows), dtype=bool)
+        marked[edge[(count == 2)[:, None] & ~follows[edge]]] = True
+        enclosed = np.flatnonzero(count == 3)
+        beside = np.flatnonzero(marked[edge].any(axis=1))
+        self._halve(beside, edge[beside], surface.edges, marked)
+        enclosed = np.flatnonzero(np.isin(self.parent, enclosed))
+        middle = len(self.vertices) + np.arange(len(enclosed))
+        corners = self.faces[enclosed]
+        self.vertices = np.concatenate([self.vertices, self.vertices[corners].mean(axis=1)])
+        around = [(corners[:, i], corners[:, (i + 1) % 3], middle) for i in range(3)]
+        pieces = np.concatenate([np.stack(piece, axis=1) for piece in around])
+        self._replace(enclosed, pieces, np.tile(enclosed, 3))
+
+    def _halve(self, faces: IntArray, edge: IntArray, ends: IntArray, marked: BoolArray) -> None:
+        """Split the marked edges (given by their ends), and the faces whose edges they are.
+
+        Each row of `edge` holds the edges of one of the faces.
+        """
+        midpoint = np.full(len(ends), -1, dtype=np.int64)
         midpoint[marked] = len(self.vertices) + np.arange(marked.sum())
-        middles = self.vertices[ends[first[marked]]].mean(axis=1)
-        self.vertices = np.concatenate([self.vertices, middles])
-        pieces, whole = _subdivided(faces, midpoint[edge], self.vertices)
-        self._replace(nearby, pieces, nearby[whole])
+        self.vertices = np.concatenate([self.vertices, self.vertices[ends[marked]].mean(axis=1)])
+        pieces, whole = _subdivided(self.faces[faces], midpoint[edge], self.vertices)
+        self._replace(faces, pieces, faces[whole])
 
     def insert(self, i: int) -> int:
         """Make a vertex of point i and return its number."""
