@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -12,11 +13,28 @@ from crossview.problem import Problem
 from solvers.aligned import AlignedField, IntegratedField, aligned_field
 from solvers.crossfield import CrossField
 from solvers.isotropic import IsotropicSolver
+from solvers.layout import QuadLayout
 from solvers.refinement import Refinement
+from solvers.separatrices import Separatrices
 from solvers.singularities import Singularity
 from solvers.surface import TriSurface
 from solvers.triangulation import FloatArray, IntArray
 from solvers.verdict import Verdict
+
+
+@dataclass(eq=False)
+class Derived:
+    """What is made of a solution when it is first asked for, and then kept.
+
+    Attributes
+    ----------
+    separatrices : Separatrices, or None
+        Of the field.
+    layout : QuadLayout, or None
+    """
+
+    separatrices: Separatrices | None = None
+    layout: QuadLayout | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,6 +61,8 @@ class Solution:
     verdict : Verdict
     growth : float, or None
         Of int |grad s|^2 on a once refined mesh; None if not asked for.
+    derived : Derived
+        Shared by copies that differ in nothing but their seconds, or an equal problem.
     """
 
     problem: Problem
@@ -55,6 +75,7 @@ class Solution:
     integrated: IntegratedField | None
     verdict: Verdict
     growth: float | None = None
+    derived: Derived = dataclasses.field(default_factory=Derived, repr=False)
 
     @property
     def surface(self) -> TriSurface:

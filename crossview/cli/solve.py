@@ -8,9 +8,14 @@ from pathlib import Path
 from crossview.case import Case
 from crossview.cli.options import Flag, Json, Output, chosen_case
 from crossview.cli.terminal import say, say_json, watch
+from crossview.meshing import MeshOptions, quads_of
 from crossview.pipeline import Solution, solve_case
 from crossview.staging import staged
+from solvers.errors import CrossviewError
 from solvers.progress import Progress
+from solvers.quadmesh import QuadMesh
+
+Results = list[tuple[Solution, QuadMesh | None]]
 
 
 def solve(
@@ -21,6 +26,10 @@ def solve(
     method: str | None = None,
     component: str | None = None,
     repair: Flag = False,
+    quads: Flag = False,
+    edge_length: float | None = None,
+    target_quads: int | None = None,
+    collapse: Flag = False,
     quiet: Flag = False,
     as_json: Json = False,
 ) -> None:
@@ -39,33 +48,64 @@ def solve(
         makes a folder for each.
     repair
         Also mend what cannot be mended without changing the surface.
+    quads
+        Also make the quad layout and a quad mesh, which need an aligned and integrable field.
+    edge_length
+        Mean length of the quads' edges.
+    target_quads
+        About how many quads; 5000 if neither is given.
+    collapse
+        Let parts of the layout vanish where that gives a coarser mesh.
     quiet
         Show neither progress nor summary.
     as_json
         Print the report, or a list of them for all components.
     """
-    from crossview.export.report import report, summary
+    from crossview.export.report import quads_summary, report, summary
 
+    wanted = _wanted(quads, edge_length, target_quads, collapse)
     found = chosen_case(case, method, component, repair)
     with staged(output) as staging:
-        solutions = watch(_solved_into(staging, found), quiet)
+        results = watch(_solved_into(staging, found, wanted), quiet)
     if as_json:
-        reports = [report(solution) for solution in solutions]
+        reports = [report(solution, made) for solution, made in results]
         say_json(reports if found.options.component == "all" else reports[0])
     elif not quiet:
-        for solution in solutions:
+        for solution, made in results:
             say(summary(solution))
+            if made is not None:
+                say(quads_summary(solution, made))
         say(f"wrote {Path(output)}")
 
 
-def _solved_into(directory: Path, case: Case) -> Generator[Progress, None, tuple[Solution, ...]]:
+def _wanted(
+    quads: bool, edge_length: float | None, target_quads: int | None, collapse: bool
+) -> MeshOptions | None:
+    """What the command line says about quads; None if it wants none."""
+    if quads:
+        return MeshOptions(edge_length, target_quads, collapse)
+    given = {"edge-length": edge_length, "target-quads": target_quads, "collapse": collapse or None}
+    for name, value in given.items():
+        if value is not None:
+            raise CrossviewError(f"--{name} is about quads", "", "add --quads")
+    return None
+
+
+def _solved_into(
+    directory: Path, case: Case, wanted: MeshOptions | None
+) -> Generator[Progress, None, Results]:
     from crossview.export.report import write_files
 
-    solutions = yield from solve_case(case)
+    results: Results = []
+    for solution in (yield from solve_case(case)):
+        if wanted is None:
+            results.append((solution, None))
+        else:
+            results.append((yield from quads_of(solution, wanted)))
     yield Progress("writing", 0.9)
-    for number, solution in enumerate(solutions):
+    for number, (solution, made) in enumerate(results):
         one_of_many = case.options.component == "all"
         folder = directory / f"component-{number}" if one_of_many else directory
         folder.mkdir(exist_ok=True)
-        write_files(solution, folder)
-    return solutions
+        write_files(solution, folder, made)
+    return results

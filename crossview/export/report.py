@@ -9,20 +9,31 @@ from typing import Any
 import numpy as np
 
 from crossview import __version__
-from crossview.export.vtp import cross_lines, cut_lines, field_surface, singularity_points
+from crossview.export.meshes import write_mesh
+from crossview.export.vtp import (
+    cross_lines,
+    cut_lines,
+    field_surface,
+    layout_patches,
+    separatrix_lines,
+    singularity_points,
+)
+from crossview.meshing import misaligned_boundaries, separatrices
 from crossview.pipeline import Solution
 from crossview.staging import staged
+from solvers.quadmesh import QuadMesh
 
 REPORT = "report.json"
 
 
-def report(solution: Solution) -> dict[str, Any]:
+def report(solution: Solution, quads: QuadMesh | None = None) -> dict[str, Any]:
     """The report of a solution as JSON values; angles in degrees, indices in quarter turns.
 
     "surface" is the surface as given, "solved_on" the one refined around the singularities;
     "boundary_misalignment_degrees" follows the order of ``surface.boundary_loops`` of the first.
     "holonomy" and "isotropically_valid" are those of the isotropic field of the configuration,
-    whatever the method.
+    whatever the method. "layout" tells of the separatrices, and of patches if the layout has been
+    made; "quads" is there if a quad mesh is given.
     """
     problem, field = solution.problem, solution.field
     surface, solved_on = problem.surface, solution.surface
@@ -55,10 +66,24 @@ def report(solution: Solution) -> dict[str, Any]:
         "isotropically_valid": solution.valid,
         "boundary_misalignment_degrees": _floats(np.degrees(_by_loop(solution))),
         **_integrability(solution),
+        "layout": _layout(solution),
+        **({} if quads is None else {"quads": _quads(quads)}),
         "residual": float(field.residual),
         "max_closing_error": float(field.max_closing_error),
         "seconds": {stage: round(time, 6) for stage, time in solution.seconds.items()},
     }
+
+
+def quads_summary(solution: Solution, quads: QuadMesh) -> str:
+    """Counts and quality of the quads and their layout, in one line."""
+    layout, quality = _layout(solution), quads.scaled_jacobian
+    irregular = sum(quads.irregular.values())
+    patches = f"{layout['patches']} patches, "
+    patches += "conforming" if layout["conforming"] else f"{layout['t_junctions']} T-junctions"
+    return (
+        f"{quads.n_quads} quads in {patches}; {irregular} irregular vertices, "
+        f"scaled Jacobian at least {quality.min():.2f}, mean {quality.mean():.3f}"
+    )
 
 
 def summary(solution: Solution) -> str:
@@ -93,10 +118,13 @@ def _defects(solution: Solution) -> str:
     )
 
 
-def write_solution(solution: Solution, directory: str | Path) -> None:
-    """Write report.json, surface.vtp, crosses.vtp, cut_graph.vtp and singularities.vtp.
+def write_solution(
+    solution: Solution, directory: str | Path, quads: QuadMesh | None = None
+) -> None:
+    """Write report.json and surface, crosses, cut_graph, singularities and separatrices as .vtp.
 
-    All or nothing: the files are moved to `directory` when the last of them is complete.
+    With quads also layout.vtp, quads.vtk and quads.obj. All or nothing: the files are moved to
+    `directory` when the last of them is complete.
 
     Raises
     ------
@@ -104,16 +132,22 @@ def write_solution(solution: Solution, directory: str | Path) -> None:
         `directory` cannot be made or written.
     """
     with staged(directory) as staging:
-        write_files(solution, staging)
+        write_files(solution, staging, quads)
 
 
-def write_files(solution: Solution, directory: Path) -> None:
+def write_files(solution: Solution, directory: Path, quads: QuadMesh | None = None) -> None:
     """Write the files of `write_solution` one by one into an existing folder."""
     field_surface(solution).save(directory / "surface.vtp")
     cross_lines(solution).save(directory / "crosses.vtp")
     cut_lines(solution).save(directory / "cut_graph.vtp")
     singularity_points(solution).save(directory / "singularities.vtp")
-    text = json.dumps(report(solution), indent=2, ensure_ascii=False, allow_nan=False)
+    separatrix_lines(solution).save(directory / "separatrices.vtp")
+    if solution.derived.layout is not None:
+        layout_patches(solution.derived.layout).save(directory / "layout.vtp")
+    if quads is not None:
+        write_mesh(quads, directory / "quads.vtk")
+        write_mesh(quads, directory / "quads.obj")
+    text = json.dumps(report(solution, quads), indent=2, ensure_ascii=False, allow_nan=False)
     (directory / REPORT).write_text(text + "\n", encoding="utf-8")
 
 
@@ -132,6 +166,39 @@ def _integrability(solution: Solution) -> dict[str, Any]:
         "flips": solution.flips,
         "verdict": solution.verdict.status,
         "verdict_reason": solution.verdict.reason,
+    }
+
+
+def _layout(solution: Solution) -> dict[str, Any]:
+    """The separatrices, what they miss, and the patches between them if there are any."""
+    curves, layout = separatrices(solution), solution.derived.layout
+    own = curves.valences >= 0
+    return {
+        "separatrices": int(np.count_nonzero(own)),
+        "t_junctions": len(curves.t_junctions),
+        "limit_cycles": curves.limit_cycles,
+        "misaligned_boundaries": len(misaligned_boundaries(solution)[0]),
+        "added_curves": int(np.count_nonzero(~own)),
+        "patches": None if layout is None else layout.patches,
+        "conforming": None if layout is None else layout.conforming,
+        "flips": None if layout is None else layout.flips,
+        "stiffened": None if layout is None else layout.mended,
+    }
+
+
+def _quads(mesh: QuadMesh) -> dict[str, Any]:
+    """Counts and quality of a quad mesh; valences are written as text, for they are keys."""
+    quality = mesh.scaled_jacobian
+    return {
+        "vertices": mesh.n_vertices,
+        "quads": mesh.n_quads,
+        "non_quads": 0,
+        "irregular": {str(valence): count for valence, count in mesh.irregular.items()},
+        "irregular_on_boundary": {str(valence): count for valence, count in mesh.corners.items()},
+        "euler_characteristic": mesh.euler_characteristic,
+        "min_scaled_jacobian": float(quality.min()),
+        "mean_scaled_jacobian": float(quality.mean()),
+        "max_distance_to_surface": mesh.max_distance_to_surface,
     }
 
 

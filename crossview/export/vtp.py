@@ -8,7 +8,9 @@ import numpy as np
 import pyvista as pv
 from numpy.typing import NDArray
 
+from crossview.meshing import separatrices
 from crossview.pipeline import Solution
+from solvers.layout import QuadLayout
 
 ARM = 0.35
 """Length of a cross's arm in a triangle of typical H, in lengths of the triangle's size."""
@@ -67,6 +69,31 @@ def singularity_points(solution: Solution) -> pv.PolyData:
     mesh = pv.PolyData(points)
     mesh.point_data["valence"] = np.array([s.valence for s in singularities], dtype=int)
     mesh.point_data["index"] = np.array([s.index for s in singularities], dtype=int)
+    return mesh
+
+
+def separatrix_lines(solution: Solution) -> pv.PolyData:
+    """The separatrices as polylines.
+
+    Cell data: "valence" of the singularity each leaves (0 for a corner, -1 for a curve added to
+    make rectangles), "end" 0 at a singularity or corner, 1 on the boundary, 2 at a T-junction, 3
+    for a curve cut for its length.
+    """
+    curves = separatrices(solution)
+    mesh = pv.PolyData()
+    mesh.points = curves.points.astype(np.float64).reshape(-1, 3)
+    numbers = np.arange(len(curves.points))
+    mesh.lines = np.insert(numbers, curves.offsets[:-1], np.diff(curves.offsets))
+    mesh.cell_data["valence"] = curves.valences
+    mesh.cell_data["end"] = curves.ends
+    return mesh
+
+
+def layout_patches(layout: QuadLayout) -> pv.PolyData:
+    """The patches of a layout, finely sampled; cell data "patch" is the number of each."""
+    sampled = layout.patch_mesh
+    mesh = pv.PolyData.from_regular_faces(sampled.points, sampled.quads)
+    mesh.cell_data["patch"] = sampled.patch
     return mesh
 
 

@@ -10,7 +10,14 @@ import numpy as np
 import pytest
 import pyvista as pv
 
-FILES = {"report.json", "surface.vtp", "crosses.vtp", "cut_graph.vtp", "singularities.vtp"}
+FILES = {
+    "report.json",
+    "surface.vtp",
+    "crosses.vtp",
+    "cut_graph.vtp",
+    "singularities.vtp",
+    "separatrices.vtp",
+}
 CUBE = [(tuple(s / sqrt(3) for s in signs), 3) for signs in product((-1, 1), repeat=3)]
 
 

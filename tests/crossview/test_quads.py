@@ -1,0 +1,179 @@
+"""crossview solve --quads: the mesh that was asked for, or one line that says why there is none."""
+
+from __future__ import annotations
+
+import json
+from itertools import product
+from math import sqrt
+
+import meshio
+import numpy as np
+import pytest
+import pyvista as pv
+
+from crossview.meshing import MeshOptions
+from solvers.errors import CrossviewError
+from solvers.primitives import BUILTIN
+
+CUBE = [(tuple(s / sqrt(3) for s in signs), 3) for signs in product((-1, 1), repeat=3)]
+ALWAYS = {
+    "report.json",
+    "surface.vtp",
+    "crosses.vtp",
+    "cut_graph.vtp",
+    "singularities.vtp",
+    "separatrices.vtp",
+}
+QUADS = {"layout.vtp", "quads.vtk", "quads.obj"}
+
+
+@pytest.fixture
+def meshed(crossview, tmp_path, case_file):
+    """Mesh a case by command; return its report."""
+
+    def mesh(surface, singularities=(), *arguments, **more):
+        path = case_file(surface, singularities, **more)
+        ran = crossview("solve", path, "-o", tmp_path / "out", "--quads", *arguments)
+        assert ran.status == 0, ran.err
+        assert {p.name for p in (tmp_path / "out").iterdir()} == ALWAYS | QUADS
+        return json.loads((tmp_path / "out" / "report.json").read_text())
+
+    return mesh
+
+
+def test_the_cubes_eight_give_the_cubes_six_patches(meshed, tmp_path):
+    report = meshed({"builtin": "cube_sphere", "n": 16}, CUBE, "--target-quads", 600)
+    layout, quads = report["layout"], report["quads"]
+    assert (layout["patches"], layout["separatrices"], layout["conforming"]) == (6, 12, True)
+    assert (layout["t_junctions"], layout["limit_cycles"], layout["flips"]) == (0, 0, 0)
+    assert quads["irregular"] == {"3": 8}
+    assert (quads["non_quads"], quads["euler_characteristic"]) == (0, 2)
+    assert quads["quads"] == quads["vertices"] - 2 == 600
+    assert quads["min_scaled_jacobian"] > 0.8
+    assert quads["mean_scaled_jacobian"] > 0.95
+    assert quads["max_distance_to_surface"] < 1e-9
+    assert {"layout", "quads"} <= set(report["seconds"])
+
+    patches = pv.read(tmp_path / "out" / "layout.vtp")
+    assert sorted(set(patches.cell_data["patch"])) == list(range(6))
+    surface = pv.read(tmp_path / "out" / "surface.vtp")
+    assert patches.area == pytest.approx(surface.area, rel=1e-2)
+    curves = pv.read(tmp_path / "out" / "separatrices.vtp")
+    assert curves.n_lines == 12
+    assert set(curves.cell_data["valence"]) == {3}
+    assert set(curves.cell_data["end"]) == {0}
+    # each is an edge of the cube seen from the centre
+    assert np.allclose(curves.compute_cell_sizes()["Length"], np.arccos(1 / 3), rtol=0.02)
+    for name in ("quads.vtk", "quads.obj"):
+        written = meshio.read(tmp_path / "out" / name)
+        assert written.cells_dict["quad"].shape == (600, 4)
+        assert len(written.points) == 602
+
+
+def test_a_square_is_a_grid(meshed):
+    report = meshed("square", (), "--edge-length", 0.1)
+    quads = report["quads"]
+    assert (quads["quads"], quads["vertices"]) == (100, 121)
+    assert quads["irregular"] == {}
+    assert quads["irregular_on_boundary"] == {"1": 4}
+    assert quads["min_scaled_jacobian"] == pytest.approx(1)
+
+
+@pytest.mark.parametrize(("name", "chi"), [("torus", 0), ("annulus", 0), ("cylinder", 0)])
+def test_surfaces_without_singularities_have_regular_meshes(meshed, name, chi):
+    report = meshed(name, (), "--target-quads", 1500)
+    assert report["layout"]["separatrices"] == 0
+    assert report["layout"]["conforming"]
+    quads = report["quads"]
+    assert (quads["irregular"], quads["irregular_on_boundary"]) == ({}, {})
+    assert quads["euler_characteristic"] == chi
+    assert quads["mean_scaled_jacobian"] > 0.95
+    assert abs(quads["quads"] - 1500) < 150
+
+
+def test_the_edge_length_is_that_on_the_surface(meshed):
+    surface = BUILTIN["annulus"]()
+    report = meshed("annulus", (), "--edge-length", 0.05, "--quiet")
+    assert report["quads"]["quads"] == pytest.approx(surface.area / 0.05**2, rel=0.1)
+
+
+def test_without_quads_the_separatrices_are_told_all_the_same(crossview, tmp_path):
+    assert crossview("solve", "suboptimal-a", "-o", tmp_path / "out").status == 0
+    report = json.loads((tmp_path / "out" / "report.json").read_text())
+    layout = report["layout"]
+    assert layout["misaligned_boundaries"] == 2
+    assert layout["patches"] is layout["conforming"] is layout["flips"] is None
+    assert "quads" not in report
+    curves = pv.read(tmp_path / "out" / "separatrices.vtp")
+    assert curves.n_lines == layout["separatrices"]
+    own = np.count_nonzero(curves.cell_data["valence"] == 5)
+    ends = np.count_nonzero(curves.cell_data["end"] == 0)
+    assert own > 0
+    # five leave each of eight singularities, one each of the four corners' sides at most
+    assert own + ends >= 40
+    assert layout["t_junctions"] == np.count_nonzero(curves.cell_data["end"] == 2)
+    assert {p.name for p in (tmp_path / "out").iterdir()} == ALWAYS
+
+
+@pytest.mark.parametrize(
+    ("case", "said"),
+    [
+        ("suboptimal-a", ["misses 2 boundaries", "make-valid", "anisotropic"]),
+        ("suboptimal-b", ["not integrable", "valid", "anisotropic"]),
+        ("torus-35", ["No quadrangulation of a torus"]),
+    ],
+)
+def test_fields_that_have_no_quads_are_refused(crossview, tmp_path, case, said):
+    ran = crossview("solve", case, "-o", tmp_path / "out", "--quads")
+    refused(ran, tmp_path, *said)
+
+
+def test_an_isotropic_field_that_misses_a_handle_is_refused(crossview, tmp_path, case_file):
+    path = case_file(
+        "torus", [((1.4, 0, 0), 3), ((-1.4, 0, 0), 3), ((0, 1.4, 0), 5), ((0, 0.6, 0), 5)]
+    )
+    ran = crossview("solve", path, "-o", tmp_path / "out", "--quads")
+    refused(ran, tmp_path, "holonomy defect", "anisotropic")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--edge-length", 0.1], "--edge-length is about quads: add --quads"),
+        (["--target-quads", 9], "--target-quads is about quads: add --quads"),
+        (["--collapse"], "--collapse is about quads: add --quads"),
+        (
+            ["--quads", "--edge-length", 0.1, "--target-quads", 9],
+            "both an edge length and a number",
+        ),
+        (["--quads", "--edge-length", "0"], "the edge length must be above 0"),
+        (["--quads", "--edge-length", "-1"], "the edge length must be above 0 (-1)"),
+        (["--quads", "--edge-length", "nan"], "the edge length must be above 0"),
+        (["--quads", "--edge-length", "fine"], "--edge-length"),
+        (["--quads", "--target-quads=-5"], "the number of quads must be above 0 (-5)"),
+        (["--quads", "--target-quads", "many"], "--target-quads"),
+        (["--quads", "--edge-length", "5"], "larger than the surface (5 on a surface of 1.41)"),
+        (["--quads", "--edge-length", "1e-5"], "1e+10 quads are too many (edge length 1e-05)"),
+        (["--quads", "--target-quads", "3000000"], "3e+06 quads are too many: at most 2,000,000"),
+    ],
+)
+def test_wrong_options_are_refused(crossview, tmp_path, arguments, said):
+    refused(crossview("solve", "square", "-o", tmp_path / "out", *arguments), tmp_path, said)
+
+
+def test_options_are_checked_wherever_they_come_from():
+    with pytest.raises(CrossviewError, match="give one of them"):
+        MeshOptions(edge_length=0.1, target_quads=10)
+    assert MeshOptions().number_on(BUILTIN["square"]()) == 5000
+    assert MeshOptions(edge_length=0.25).number_on(BUILTIN["square"]()) == 16
+
+
+def refused(ran, tmp_path, *said):
+    """One line that says all of `said`; status 2; nothing written."""
+    assert ran.err.startswith("crossview: error: ")
+    assert ran.err.count("\n") == 1
+    for words in said:
+        assert words in ran.err
+    assert (ran.status, ran.out) == (2, "")
+    assert not (tmp_path / "out").exists()
+    assert not list(tmp_path.glob(".crossview-*"))
