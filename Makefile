@@ -2,6 +2,7 @@
 # make test   lint, types, import contracts and all tests
 # make bench  the performance figures
 # make table  the table of docs/anisotropic.md (minutes); CROSSVIEW_DATA names a folder of surfaces
+# make study  100 random configurations made valid: the table of docs/make_valid.md (minutes)
 # make clean  forget the environment and every cache
 PYTHON ?= python3
 VENV := .venv
@@ -11,7 +12,7 @@ PICTURE := crossview.png
 XVFB := $(if $(filter Darwin,$(shell uname)),,xvfb-run -a -s "-screen 0 1600x1200x24")
 PIP_INSTALL := $(VENV)/bin/python -m pip install --disable-pip-version-check
 
-.PHONY: run test bench table clean
+.PHONY: run test bench table study clean
 
 run:
 	@sh tools/system-packages.sh window "$(PYTHON)"
@@ -35,6 +36,10 @@ bench:
 table:
 	@$(MAKE) --no-print-directory $(VENV)/installed
 	$(VENV)/bin/python -m benchmarks.table docs/anisotropic.md
+
+study:
+	@$(MAKE) --no-print-directory $(VENV)/installed
+	$(VENV)/bin/python -m benchmarks.make_valid docs/make_valid.md
 
 $(VENV)/bin/python:
 	"$(PYTHON)" -m venv $(VENV)

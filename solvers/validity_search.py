@@ -17,7 +17,7 @@ from solvers.refinement import Refinement, refine_at
 from solvers.singularities import Singularity
 from solvers.spacing import Spacing
 from solvers.surface import TriSurface
-from solvers.triangulation import BoolArray, FloatArray, IntArray, wrap
+from solvers.triangulation import FloatArray, wrap
 
 TOLERANCE = np.radians(1e-6)
 LONGEST_STEP = 0.1
@@ -25,9 +25,6 @@ LONGEST_STEP = 0.1
 
 HALVINGS, CONTACTS = 7, 4
 """How often a step is halved; how often it is bent around what it would come too near to."""
-
-FREE_CORRECTIONS = 3
-"""How many corrections may take singularities into other triangles."""
 
 SAMPLES = 200
 """At how many triangles the potentials of two surfaces are compared."""
@@ -129,7 +126,7 @@ class Search:
             worst = float(np.abs(remaining).max(initial=0.0))
             if worst < TOLERANCE / 10:
                 return singularities
-            moved = self._advance(singularities, remaining, self._free)
+            moved = self._advance(singularities, remaining)
             # Steps are short, so the defects have changed by less than an eighth of a turn.
             change = wrap(self._guide.defects(moved) - goal - remaining, QUARTER)
             singularities, remaining = moved, remaining + change
@@ -147,10 +144,6 @@ class Search:
     ) -> Generator[Progress, None, Moved]:
         """Correct what a fresh operator on the refined surface still finds.
 
-        How the surface is refined depends on the small triangles that the singularities are in,
-        and the operator's defects jump a little where it changes. So after the first corrections
-        those stay that would leave theirs, as long as the others can do the rest.
-
         Parameters
         ----------
         singularities, turns
@@ -165,7 +158,7 @@ class Search:
         Blocked
             The fresh operator's defects do not vanish.
         """
-        for correction in range(limit):
+        for _ in range(limit):
             refinement = refine_at(self._surface, [s.point for s in singularities], levels)
             fine = refinement.surface
             inserted = [
@@ -178,10 +171,7 @@ class Search:
             if np.abs(defects).max(initial=0.0) < TOLERANCE:
                 return Moved("valid", 1.0, singularities, defects, turns)
             defects = self._on_own_loops(refinement, fresh, defects)
-            free = self._free
-            if correction >= FREE_CORRECTIONS:
-                free = self._settled(singularities, defects, 2**levels)
-            singularities = self._advance(singularities, defects, free)
+            singularities = self._advance(singularities, defects)
         raise Blocked(UNSETTLED, defects)
 
     def _on_own_loops(
@@ -204,29 +194,12 @@ class Search:
         sums = np.rint(there @ np.linalg.pinv(here))
         return wrap(np.rint(np.linalg.pinv(sums)) @ defects, QUARTER)
 
-    def _settled(
-        self, singularities: tuple[Singularity, ...], defects: FloatArray, parts: int
-    ) -> BoolArray:
-        """Return who moves so that nobody leaves the small triangle it is in."""
-        free = self._free.copy()
-        cells = _cells(singularities, parts)
-        while True:
-            try:
-                matrix = self._matrix(singularities, defects, free)
-            except Blocked:  # the others cannot do it alone
-                return self._free
-            moved = self._moved(singularities, _least(matrix, -defects))
-            leaves = np.any(_cells(moved, parts) != cells, axis=1)
-            if not (leaves & free).any():
-                return free
-            free &= ~leaves
-
     def _advance(
-        self, singularities: tuple[Singularity, ...], remaining: FloatArray, free: BoolArray
+        self, singularities: tuple[Singularity, ...], remaining: FloatArray
     ) -> tuple[Singularity, ...]:
         """Take the least step, cut so that the defects fall, bent so that distances are kept."""
         now, before = self._guide.defects(singularities), float(np.linalg.norm(remaining))
-        matrix = self._matrix(singularities, remaining, free)
+        matrix = self._matrix(singularities, remaining)
         longest = np.linalg.norm(_least(matrix, -remaining), axis=1).max()
         reach = LONGEST_STEP * self._unit
         share, why = min(1.0, reach / max(float(longest), 1e-300)), STALLED
@@ -250,12 +223,10 @@ class Search:
             share /= 2
         raise Blocked(why, remaining)
 
-    def _matrix(
-        self, singularities: tuple[Singularity, ...], remaining: FloatArray, free: BoolArray
-    ) -> FloatArray:
+    def _matrix(self, singularities: tuple[Singularity, ...], remaining: FloatArray) -> FloatArray:
         """Return (c, 2 k): how the defects change with moves in the triangles' frames."""
         gradients = self._guide.gradients([s.point for s in singularities])
-        weight = QUARTER * self._index * free
+        weight = QUARTER * self._index * self._free
         matrix = np.asarray((gradients * weight[:, None]).reshape(len(remaining), -1))
         scale = np.linalg.svd(matrix, compute_uv=False)
         if matrix.shape[1] < len(remaining) or scale[-1] * self._unit < 1e-4:
@@ -283,10 +254,3 @@ def _flattened(
     """Return (c, 3 k) gradients in space from (c, k, 2) in the points' triangles."""
     frames = np.stack(surface.face_frames, axis=1)[[point.face for point in points]]
     return np.einsum("ckd,kdx->ckx", gradients, frames).reshape(len(gradients), -1)
-
-
-def _cells(singularities: Sequence[Singularity], parts: int) -> IntArray:
-    """Return (k, 4): triangles and which of the `parts` squared small ones in each."""
-    weights = np.array([s.point.barycentric for s in singularities]).reshape(-1, 3)
-    faces = np.array([s.point.face for s in singularities], dtype=np.int64)
-    return np.column_stack([faces, np.floor(weights * parts).astype(np.int64)])
