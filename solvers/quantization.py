@@ -7,12 +7,14 @@ integrality is a minimum-cost flow through the rectangles, so branching has litt
 
 from __future__ import annotations
 
+import time
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import Bounds, LinearConstraint, milp
 from scipy.sparse import coo_array, csr_array, diags_array, eye_array, hstack, vstack
 
+from solvers.collapse import Cut, broken, least_counts
 from solvers.errors import CrossviewError, SolveError
 from solvers.tmesh import TMesh
 from solvers.triangulation import FloatArray, IntArray
@@ -22,6 +24,9 @@ MOST_QUADS = 5_000_000
 
 NEAR_ENOUGH = 0.01
 """Relative distance from a wanted number of quads at which looking further ends."""
+
+MOST_ROUNDS = 40
+"""How often what counts break is ruled out before every arc gets an edge."""
 
 MOST_TRIALS = 8
 """Programs solved at most for a wanted number of quads."""
@@ -52,7 +57,9 @@ class Quantization:
     optimal: bool
 
 
-def quantize(tmesh: TMesh, edge_length: float, *, time_limit: float = 10.0) -> Quantization:
+def quantize(
+    tmesh: TMesh, edge_length: float, *, collapse: bool = False, time_limit: float = 10.0
+) -> Quantization:
     """Return the counts nearest to the arcs' lengths, at least 1 each.
 
     Parameters
@@ -61,6 +68,9 @@ def quantize(tmesh: TMesh, edge_length: float, *, time_limit: float = 10.0) -> Q
         The rectangles.
     edge_length : float
         Wanted length of the quads' edges, in units of the map.
+    collapse : bool, optional
+        Let short arcs have no edge where topology and singularities stay what they are; curves
+        that nearly coincide become one.
     time_limit : float, optional
         Seconds after which the best counts found are taken.
 
@@ -80,7 +90,7 @@ def quantize(tmesh: TMesh, edge_length: float, *, time_limit: float = 10.0) -> Q
             "choose longer edges",
         )
     wanted = tmesh.lengths / edge_length
-    counts, optimal = _program(wanted, balances(tmesh), least_counts(tmesh), time_limit)
+    counts, optimal = _counts(tmesh, wanted, collapse, time_limit)
     return Quantization(
         counts,
         edge_length,
@@ -90,7 +100,9 @@ def quantize(tmesh: TMesh, edge_length: float, *, time_limit: float = 10.0) -> Q
     )
 
 
-def quantize_to(tmesh: TMesh, n_quads: int, *, time_limit: float = 10.0) -> Quantization:
+def quantize_to(
+    tmesh: TMesh, n_quads: int, *, collapse: bool = False, time_limit: float = 10.0
+) -> Quantization:
     """Return the counts whose number of quads is nearest to a wanted one, by a few programs.
 
     Parameters
@@ -99,6 +111,8 @@ def quantize_to(tmesh: TMesh, n_quads: int, *, time_limit: float = 10.0) -> Quan
         The rectangles.
     n_quads : int
         Wanted number of quads.
+    collapse : bool, optional
+        Let short arcs have no edge, as in `quantize`.
     time_limit : float, optional
         Seconds for each program.
 
@@ -113,7 +127,7 @@ def quantize_to(tmesh: TMesh, n_quads: int, *, time_limit: float = 10.0) -> Quan
         )
     length = np.sqrt(tmesh.area / n_quads)
     low, high = 0.0, np.inf
-    best = found = quantize(tmesh, float(length), time_limit=time_limit)
+    best = found = quantize(tmesh, float(length), collapse=collapse, time_limit=time_limit)
     for _ in range(MOST_TRIALS - 1):
         if abs(best.n_quads - n_quads) <= NEAR_ENOUGH * n_quads:
             break
@@ -122,7 +136,7 @@ def quantize_to(tmesh: TMesh, n_quads: int, *, time_limit: float = 10.0) -> Quan
         length = length * np.sqrt(found.n_quads / n_quads)
         if length <= low or length >= high:
             length = np.sqrt(low * high)
-        found = quantize(tmesh, float(length), time_limit=time_limit)
+        found = quantize(tmesh, float(length), collapse=collapse, time_limit=time_limit)
         if abs(found.n_quads - n_quads) < abs(best.n_quads - n_quads):
             best = found
     return best
@@ -151,22 +165,31 @@ def balances(tmesh: TMesh) -> csr_array:
     return matrix[np.flatnonzero(np.diff(matrix.indptr))]
 
 
-def least_counts(tmesh: TMesh) -> IntArray:
-    """Return the smallest counts (A,) that leave no two edges with the same ends.
+def _counts(
+    tmesh: TMesh, wanted: FloatArray, collapse: bool, time_limit: float
+) -> tuple[IntArray, bool]:
+    """Return the nearest counts that make a mesh, and whether they surely are.
 
-    Parameters
-    ----------
-    tmesh : TMesh
-        The rectangles.
+    What the nearest counts break is ruled out, until they break nothing; when that takes too long,
+    every arc gets an edge.
     """
-    ends = np.sort(tmesh.arcs, axis=1)
-    _, which, times = np.unique(ends, axis=0, return_inverse=True, return_counts=True)
-    least = np.where(times[which.reshape(-1)] > 1, 2, 1)
-    return np.where(ends[:, 0] == ends[:, 1], 3, least)
+    balance = balances(tmesh)
+    end = time.monotonic() + time_limit
+    cuts: list[Cut] = []
+    for tried in range(2 * MOST_ROUNDS):
+        in_time = tried < MOST_ROUNDS and time.monotonic() < end
+        least = least_counts(tmesh, collapse=collapse and in_time)
+        left = max(end - time.monotonic(), 0.1 * time_limit)
+        counts, optimal = _program(wanted, balance, least, cuts, left)
+        found = broken(tmesh, counts)
+        if not found:
+            return counts, optimal and in_time
+        cuts += found
+    return counts, False
 
 
 def _program(
-    wanted: FloatArray, balance: csr_array, least: IntArray, time_limit: float
+    wanted: FloatArray, balance: csr_array, least: IntArray, cuts: list[Cut], time_limit: float
 ) -> tuple[IntArray, bool]:
     """Return counts in balance that are nearest to `wanted`, and whether they surely are.
 
@@ -183,6 +206,11 @@ def _program(
     if balance.shape[0]:
         none = csr_array((balance.shape[0], k))
         constraints.append(LinearConstraint(hstack([balance, none]), 0, 0))
+    if cuts:
+        column = np.concatenate([cut.arcs for cut in cuts])
+        row = np.repeat(np.arange(len(cuts)), [len(cut.arcs) for cut in cuts])
+        sums = coo_array((np.ones(len(row)), (row, column)), shape=(len(cuts), 2 * k))
+        constraints.append(LinearConstraint(csr_array(sums), [cut.least for cut in cuts], np.inf))
     found = milp(
         np.r_[np.zeros(k), np.ones(k)],
         integrality=np.r_[np.ones(k), np.zeros(k)],

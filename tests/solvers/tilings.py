@@ -4,7 +4,11 @@ from collections.abc import Iterable
 from itertools import pairwise
 
 import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
+from solvers.quadmesh import QuadMesh
+from solvers.surface import TriSurface
 from solvers.tmesh import TMesh
 
 Place = tuple[float, float]
@@ -141,4 +145,48 @@ def torus(width: float = 6.3, height: float = 2.5) -> TMesh:
         np.array([False]),
         np.arange(5),
         np.array([0, 2, 1, 3]),
+    )
+
+
+def assembled(t: TMesh, counts: np.ndarray, surface: TriSurface) -> QuadMesh:
+    """The quads of a T-mesh, by joining all vertices that are one; only connectivity counts."""
+    inner = np.concatenate([[0], np.cumsum(np.maximum(counts - 1, 0))]) + t.n_nodes
+    pairs = [tuple(t.arcs[a]) for a in np.flatnonzero(counts == 0)]
+    n, quads = int(inner[-1]), []
+
+    def along(r: int, j: int) -> list[int]:
+        line = [int(t.arcs[t.side(r, j)[0] // 2, t.side(r, j)[0] % 2])]
+        for half in t.side(r, j).tolist():
+            between = list(range(inner[half // 2], inner[half // 2 + 1]))
+            end = int(t.arcs[half // 2, 1 - half % 2])
+            line += [*between[:: -1 if half % 2 else 1], end] if counts[half // 2] else []
+        return line
+
+    for r in range(t.n_rectangles):
+        low, right, top, left = (along(r, j) for j in range(4))
+        grid = n + np.arange(len(low) * len(right)).reshape(len(low), len(right))
+        n += grid.size
+        pairs += zip(grid[:, 0], low, strict=True)
+        pairs += zip(grid[:, -1], top[::-1], strict=True)
+        pairs += zip(grid[0], left[::-1], strict=True)
+        pairs += zip(grid[-1], right, strict=True)
+        corners = [grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]]
+        quads.append(np.stack(corners, axis=2).reshape(-1, 4))
+    graph = coo_array((np.ones(len(pairs)), np.array(pairs).T), shape=(n, n))
+    count, label = connected_components(graph, directed=False)
+    loop, fixed = np.full(count, -1), np.zeros(count, dtype=bool)
+    loop[label[: t.n_nodes][t.node_on_boundary]] = 0
+    loop[label[: inner[-1]][t.n_nodes :][np.repeat(t.arc_on_boundary, np.diff(inner))]] = 0
+    fixed[label[: t.n_nodes][t.critical]] = True
+    four = label[np.concatenate(quads)].astype(np.int64)
+    none = np.zeros(count, dtype=np.int64)
+    return QuadMesh(
+        surface,
+        np.zeros((count, 3)),
+        four,
+        np.zeros(len(four), int),
+        none,
+        np.zeros((count, 3)),
+        fixed,
+        loop,
     )
