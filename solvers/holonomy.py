@@ -75,6 +75,14 @@ class Holonomy:
         """The 2 g + max(b - 1, 0) conditions."""
         return self.discretization.conditions
 
+    @property
+    def corner_values(self) -> FloatArray:
+        """(c, m, 3) the potentials at the corners of the operator's triangles.
+
+        From one triangle to the next they jump by how often the condition's path crosses.
+        """
+        return self._corner_values
+
     def defects(self, singularities: Sequence[Singularity]) -> FloatArray:
         """Return the defects of a configuration, without solving.
 
