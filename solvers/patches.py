@@ -53,8 +53,15 @@ def sampled(surface: TriSurface, arrangement: Arrangement) -> PatchMesh:
     )
     starts, ways, quads, first = [], [], [], 0
     for r, (height, (w, h)) in enumerate(zip(sides[:, 1], cells, strict=True)):
-        starts.append(np.repeat(_along(arrangement, tmesh.side(r, 0), w), h + 1, axis=1))
-        ways.append(np.tile(1j * np.arange(h + 1) * height / h, w + 1))
+        start = np.repeat(_along(arrangement, tmesh.side(r, 0), w)[:, :, None], h + 1, axis=2)
+        way = np.tile(1j * np.arange(h + 1) * height / h, (w + 1, 1))
+        # The other sides are where their arcs are: what walks along one may stray beside it.
+        start[:, -1] = _along(arrangement, tmesh.side(r, 1), h)
+        start[:, ::-1, -1] = _along(arrangement, tmesh.side(r, 2), w)
+        start[:, 0, ::-1] = _along(arrangement, tmesh.side(r, 3), h)
+        way[0] = way[-1] = way[:, -1] = 0.0
+        starts.append(start.reshape(3, -1))
+        ways.append(way.reshape(-1))
         number = first + np.arange((w + 1) * (h + 1)).reshape(w + 1, h + 1)
         corners = [number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]]
         quads.append(np.stack(corners, axis=2).reshape(-1, 4))
