@@ -14,6 +14,7 @@ from crossview.case_parts import (
     Builtin,
     Options,
     PlacedCorner,
+    PlacedFeatures,
     PlacedSingularity,
     Position,
     Sizes,
@@ -30,6 +31,7 @@ __all__ = [
     "CaseError",
     "Options",
     "PlacedCorner",
+    "PlacedFeatures",
     "PlacedSingularity",
     "Position",
     "Sizes",
@@ -53,6 +55,7 @@ class Case:
     options : Options
     title : str
         One line on what the case shows.
+    features : PlacedFeatures
     """
 
     surface: str | Builtin
@@ -61,6 +64,7 @@ class Case:
     method: str = METHODS[0]
     options: Options = field(default_factory=Options)
     title: str = ""
+    features: PlacedFeatures = field(default_factory=PlacedFeatures)
 
     @classmethod
     def load(cls, path: str | Path) -> Case:
@@ -96,6 +100,8 @@ class Case:
             if self.corners is None
             else [{"position": list(c.position), "index": c.index} for c in self.corners]
         )
+        if self.features != PlacedFeatures():
+            data["features"] = _features_to_json(self.features)
         data["method"] = self.method
         default = Options()
         data["options"] = {
@@ -119,6 +125,16 @@ class Case:
         text = json.dumps(self.to_json(path.parent), indent=2, ensure_ascii=False) + "\n"
         with staged(path.parent) as staging:
             (staging / path.name).write_text(text, encoding="utf-8")
+
+
+def _features_to_json(features: PlacedFeatures) -> dict[str, Any]:
+    data: dict[str, Any] = {}
+    if features.dihedral_degrees is not None:
+        data["dihedral_degrees"] = features.dihedral_degrees
+    for key, lines in (("curves", features.curves), ("without", features.without)):
+        if lines:
+            data[key] = [[list(point) for point in line] for line in lines]
+    return data
 
 
 def _relative(file: str, base: Path) -> str:

@@ -16,6 +16,8 @@ Sizes = str | tuple[float, ...] | tuple[tuple[float, float], ...]
 
 Position = tuple[float, float, float]
 
+Polyline = tuple[Position, ...]
+
 
 @dataclass(frozen=True)
 class Builtin:
@@ -40,6 +42,25 @@ class PlacedCorner:
 
     position: Position
     index: int
+
+
+@dataclass(frozen=True)
+class PlacedFeatures:
+    """Edges inside the surface that crosses are to follow.
+
+    Attributes
+    ----------
+    dihedral_degrees : float or None
+        Edges over which the surface bends by more than this are features; None: no such.
+    curves : tuple of polylines
+        Each runs along edges, the shortest way, through the vertices nearest to its points.
+    without : tuple of polylines
+        Edges, given likewise, that are none although they are sharp.
+    """
+
+    dihedral_degrees: float | None = None
+    curves: tuple[Polyline, ...] = ()
+    without: tuple[Polyline, ...] = ()
 
 
 @dataclass(frozen=True)

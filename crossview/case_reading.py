@@ -12,7 +12,9 @@ from crossview.case_parts import (
     Builtin,
     Options,
     PlacedCorner,
+    PlacedFeatures,
     PlacedSingularity,
+    Polyline,
     Sizes,
     check_method,
 )
@@ -21,6 +23,8 @@ from solvers.primitives import BUILTIN
 
 MOST_REFINE = 10
 """Levels of refinement after which triangles at a singularity are a thousandth of the others."""
+
+OPTIONAL = ("singularities", "corners", "features", "method", "options", "title")
 
 MOST_VALENCE = 100
 """Quads that meet in one vertex; more is a slip of the pen."""
@@ -34,12 +38,14 @@ def read_case(root: JsonField, base: Path) -> dict[str, Any]:
     CaseError
         A value is wrong; names its place in the document.
     """
-    members = root.object(["surface"], ["singularities", "corners", "method", "options", "title"])
+    members = root.object(["surface"], OPTIONAL)
     case: dict[str, Any] = {"surface": _surface(members["surface"], base)}
     if "singularities" in members:
         case["singularities"] = tuple(map(_singularity, members["singularities"].items()))
     if "corners" in members:
         case["corners"] = _corners(members["corners"])
+    if "features" in members:
+        case["features"] = _features(members["features"])
     if "method" in members:
         case["method"] = check_method(members["method"].text(), members["method"].where)
     if "options" in members:
@@ -95,6 +101,27 @@ def _corners(entry: JsonField) -> tuple[PlacedCorner, ...] | None:
         index = members["index"].integer("corner index", 2 - MOST_VALENCE, 1)
         corners.append(PlacedCorner(members["position"].position(), index))
     return tuple(corners)
+
+
+def _features(entry: JsonField) -> PlacedFeatures:
+    members = entry.object([], ["dihedral_degrees", "curves", "without"])
+    degrees = None
+    if "dihedral_degrees" in members:
+        degrees = members["dihedral_degrees"].number()
+        if not 0 < degrees <= 180:
+            raise members["dihedral_degrees"].error("the angle must be above 0 and at most 180")
+    curves, without = (
+        tuple(map(_polyline, members[key].items())) if key in members else ()
+        for key in ("curves", "without")
+    )
+    return PlacedFeatures(degrees, curves, without)
+
+
+def _polyline(entry: JsonField) -> Polyline:
+    points = tuple(item.position() for item in entry.items())
+    if len(points) < 2:
+        raise entry.error("a curve needs at least two points")
+    return points
 
 
 def _options(entry: JsonField, base: Path) -> Options:

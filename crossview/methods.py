@@ -63,9 +63,10 @@ def growth_when_refined(
         raise CaseError(
             "verify cannot follow turns on a surface with handles", "options", "leave one out"
         )
-    solver = IsotropicSolver(fine, field.corners, flips=False)
+    features = coarse.aligned.integrability.discretization.features.refined(refinement)
+    solver = IsotropicSolver(fine, field.corners, flips=False, features=features)
     singularities = [_at_same_vertex(s, field, solver) for s in field.singularities]
-    turns = _same_turns(coarse.aligned, solver, singularities, options.turns)
+    turns = _same_turns(coarse.aligned, solver, singularities)
     again = aligned_field(solver, singularities, turns)
     finer = None if sizes is None else refined_sizes(sizes, refinement)
     solved = yield from _unseen(integrate(coarse.method, again, options, finer))
@@ -96,7 +97,6 @@ def _same_turns(
     aligned: AlignedField,
     solver: IsotropicSolver,
     singularities: list[Singularity],
-    turns: tuple[int, ...] | None,
 ) -> list[int] | None:
     """The turns that give the same layout where a defect is next to 45 degrees.
 
@@ -108,7 +108,7 @@ def _same_turns(
         return None
     after = solver.holonomy.defects(singularities)
     shift = np.rint((after - before) / QUARTER).astype(int)
-    return [int(turn) for turn in shift + np.asarray(turns or 0)]
+    return [int(turn) for turn in shift + np.asarray(aligned.turns)]
 
 
 def _unseen(computation: Integration) -> Integration:

@@ -112,7 +112,9 @@ class Pipeline:
         before, self._problem = self._problem, problem
         if self._stage is None or not self._stage.serves(problem):
             points = [s.point for s in problem.singularities]
-            refinement = refine_at(problem.surface, points, problem.options.refine)
+            refinement = refine_at(
+                problem.surface, points, problem.options.refine, problem.features.edges
+            )
             self._stage = Stage(problem, refinement)
         if before is None or not problem.same_but_method(before):
             self._kept = {}

@@ -17,8 +17,11 @@ from crossview.case import (
     PlacedSingularity,
     Position,
 )
+from crossview.case_parts import Polyline
 from crossview.jsonfield import CaseError
 from crossview.loading import load_surfaces
+from crossview.marking import Drawing, Marking
+from solvers.features import Features
 from solvers.repair import Repaired
 from solvers.singularities import Singularity, default_corners
 from solvers.surface import TriSurface
@@ -44,6 +47,8 @@ class Problem:
     options : Options
     notes : tuple of str
         What reading and repairing changed, in plain words.
+    marking : Marking
+        Which edges of `surface` are features.
     """
 
     surface: TriSurface
@@ -52,6 +57,7 @@ class Problem:
     method: str = METHODS[0]
     options: Options = field(default_factory=Options)
     notes: tuple[str, ...] = ()
+    marking: Marking = field(default_factory=Marking)
 
     @classmethod
     def from_case(cls, case: Case) -> Problem:
@@ -72,6 +78,11 @@ class Problem:
         """The corners, the automatic ones if none are given."""
         return default_corners(self.surface) if self.corners is None else self.corners
 
+    @cached_property
+    def features(self) -> Features:
+        """The edges that crosses are to follow."""
+        return self.marking.on(self.surface)
+
     def same_but_method(self, other: Problem) -> bool:
         """Whether the other problem differs from this one in its method at most."""
         return (
@@ -79,6 +90,7 @@ class Problem:
             and self.singularities == other.singularities
             and self.chosen_corners == other.chosen_corners
             and self.options == other.options
+            and self.marking == other.marking
         )
 
     def to_case(self, surface: str | Builtin, title: str = "") -> Case:
@@ -93,7 +105,8 @@ class Problem:
                 PlacedCorner(_triple(self.surface.vertices[vertex]), index)
                 for vertex, index in self.corners.items()
             )
-        return Case(surface, singularities, corners, self.method, self.options, title)
+        features = self.marking.placed(self.surface)
+        return Case(surface, singularities, corners, self.method, self.options, title, features)
 
 
 def problems_of(case: Case) -> tuple[Problem, ...]:
@@ -127,6 +140,7 @@ def placed(case: Case, pieces: Sequence[Repaired]) -> tuple[Problem, ...]:
         nearest = _within_reach(gaps, name, given.position)
         singularities[nearest].append(Singularity(places[nearest], given.valence, given.locked))
     corners = _corners(case, surfaces)
+    markings = _markings(case, surfaces)
     return tuple(
         Problem(
             piece.surface,
@@ -135,8 +149,11 @@ def placed(case: Case, pieces: Sequence[Repaired]) -> tuple[Problem, ...]:
             case.method,
             case.options,
             piece.notes,
+            marking,
         )
-        for piece, placed, cornered in zip(pieces, singularities, corners, strict=True)
+        for piece, placed, cornered, marking in zip(
+            pieces, singularities, corners, markings, strict=True
+        )
     )
 
 
@@ -158,6 +175,33 @@ def _corners(case: Case, surfaces: Sequence[TriSurface]) -> Sequence[dict[int, i
             raise CaseError(f"{name} is at the same boundary vertex as another", str(vertex))
         corners[nearest][vertex] = given.index
     return corners
+
+
+def _markings(case: Case, surfaces: Sequence[TriSurface]) -> Sequence[Marking]:
+    """The features of a case on each surface: a curve belongs to that nearest to its points."""
+    given = case.features
+    drawings: dict[int, Drawing] = {}
+    found: list[dict[str, frozenset[int]]] = [{} for _ in surfaces]
+    for key, name, lines in (
+        ("marked", "curve", given.curves),
+        ("unmarked", "curve without feature", given.without),
+    ):
+        for number, line in enumerate(lines, start=1):
+            gaps = [_curve_gap(surface, line) for surface in surfaces]
+            nearest = _within_reach(gaps, f"{name} #{number}", line[0])
+            if nearest not in drawings:
+                drawings[nearest] = Drawing(surfaces[nearest])
+            before = found[nearest].get(key, frozenset())
+            found[nearest][key] = before | drawings[nearest].edges([line])
+    return [Marking(given.dihedral_degrees, **edges) for edges in found]
+
+
+def _curve_gap(surface: TriSurface, line: Polyline) -> float:
+    """Largest distance of a point of a polyline from the nearest vertex, in diagonals."""
+    return (
+        max(float(np.linalg.norm(surface.vertices - point, axis=1).min()) for point in line)
+        / surface.diagonal
+    )
 
 
 def _nearest_boundary_vertex(surface: TriSurface, position: Position) -> int:

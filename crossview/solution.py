@@ -12,6 +12,7 @@ import numpy as np
 from crossview.problem import Problem
 from solvers.aligned import AlignedField, IntegratedField, aligned_field
 from solvers.crossfield import CrossField
+from solvers.features import Features
 from solvers.isotropic import IsotropicSolver
 from solvers.layout import QuadLayout
 from solvers.refinement import Refinement
@@ -82,6 +83,11 @@ class Solution:
         """The refined surface that was solved on."""
         return self.refinement.surface
 
+    @property
+    def features(self) -> Features:
+        """The edges of `surface` that crosses are to follow."""
+        return self.solver.discretization.features
+
     @cached_property
     def cut_graph(self) -> IntArray:
         """(k, 2) vertex pairs of `surface` that cut it to a disk and meet every singularity."""
@@ -125,14 +131,23 @@ class Stage:
             and before.options.refine == problem.options.refine
             and [s.point for s in before.singularities] == [s.point for s in problem.singularities]
             and before.chosen_corners == problem.chosen_corners
+            and before.marking == problem.marking
         )
+
+    @cached_property
+    def features(self) -> Features:
+        """The problem's features on the refined surface."""
+        return self.problem.features.refined(self.refinement)
 
     def solver(self, flips: bool) -> IsotropicSolver:
         """The factored surface, flipped to Delaunay or with its own triangles."""
         if flips not in self._solvers:
             # refinement keeps the numbers of vertices, so the corners stay where they are
             made = IsotropicSolver(
-                self.refinement.surface, self.problem.chosen_corners, flips=flips
+                self.refinement.surface,
+                self.problem.chosen_corners,
+                flips=flips,
+                features=self.features,
             )
             self._solvers[flips] = made
             if made.discretization.delaunay.n_flips == 0:  # the two are the same then

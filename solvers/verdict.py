@@ -70,6 +70,12 @@ def judge(
             f"No isotropic field is aligned: a holonomy defect is {worst:.3g} degrees; move "
             "singularities or solve the anisotropic field.",
         )
+    off = float(np.degrees(np.abs(field.feature_misalignment).max(initial=0.0)))
+    if off > np.degrees(tolerance):
+        return Verdict(
+            "suspect",
+            f"The field is {off:.3g} degrees off a feature curve; solve the anisotropic field.",
+        )
     return _judge_aligned(field, flips, growth)
 
 

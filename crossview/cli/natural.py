@@ -7,7 +7,7 @@ from dataclasses import replace
 from crossview.cli.options import Flag, Output, chosen_case
 from crossview.cli.terminal import say, watch
 from crossview.problem import Problem
-from solvers.natural import METHODS, natural_singularities
+from solvers.natural import ALIGNMENTS, CURVATURE_WEIGHT, METHODS, natural_singularities
 from solvers.singularities import require_budget
 
 
@@ -18,11 +18,14 @@ def natural(
     output: Output,
     method: str = METHODS[0],
     seed: int = 0,
+    alignment: str = ALIGNMENTS[0],
+    weight: float = CURVATURE_WEIGHT,
+    features: float | None = None,
     component: str | None = None,
     repair: Flag = False,
     quiet: Flag = False,
 ) -> None:
-    """Place the singularities of a smooth boundary-aligned cross-field.
+    """Place the singularities of a smooth cross-field aligned with boundaries and features.
 
     Parameters
     ----------
@@ -34,6 +37,13 @@ def natural(
         mbo, ginzburg-landau or globally-optimal.
     seed
         Of the random start.
+    alignment
+        smoothness, or curvature: also draw the crosses towards the principal directions.
+    weight
+        How strongly the curvature draws.
+    features
+        Degrees: edges over which the surface bends by more are to be followed, as are the curves
+        that the case marks.
     component
         Of a surface in several pieces: largest or a number (0 is the largest).
     repair
@@ -41,9 +51,17 @@ def natural(
     quiet
         Show neither progress nor summary.
     """
-    found = chosen_case(surface, component=component, repair=repair)
+    found = chosen_case(surface, component=component, repair=repair, features=features)
     problem = replace(Problem.from_case(found), singularities=(), corners=None)
-    singularities = watch(natural_singularities(problem.surface, method, seed), quiet)
+    computation = natural_singularities(
+        problem.surface,
+        method,
+        seed,
+        alignment=alignment,
+        weight=weight,
+        features=problem.features,
+    )
+    singularities = watch(computation, quiet)
     require_budget(problem.surface, singularities, problem.chosen_corners)
     placed = replace(problem, singularities=singularities)
     placed.to_case(found.surface, found.title).save(output)

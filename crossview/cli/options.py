@@ -17,7 +17,11 @@ Json = Annotated[bool, Parameter(name="--json", negative="")]
 
 
 def chosen_case(
-    target: str, method: str | None = None, component: str | None = None, repair: bool = False
+    target: str,
+    method: str | None = None,
+    component: str | None = None,
+    repair: bool = False,
+    features: float | None = None,
 ) -> Case:
     """The case that `target` names, with what the command line says instead.
 
@@ -31,6 +35,14 @@ def chosen_case(
     if component is not None:
         changes["component"] = _component(component)
     case = replace(case, options=replace(case.options, **changes))
+    if features is not None:
+        if not 0 < features <= 180:
+            raise CrossviewError(
+                f"features cannot be sharper than {features:g} degrees",
+                "--features",
+                "an angle above 0 and at most 180",
+            )
+        case = replace(case, features=replace(case.features, dihedral_degrees=features))
     return case if method is None else replace(case, method=check_method(method, "--method"))
 
 

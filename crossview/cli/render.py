@@ -27,6 +27,7 @@ def render(
     *,
     output: Output,
     method: str | None = None,
+    features: float | None = None,
     layers: str | None = None,
     size: str = "1600x1200",
     scale: float = 1.0,
@@ -46,6 +47,9 @@ def render(
         The picture: .png, or .svg or .pdf with curves and crosses as vectors.
     method
         isotropic, aligned, anisotropic or alternating, instead of the case's.
+    features
+        Degrees: edges over which the surface bends by more are to be followed, as are the curves
+        that the case marks.
     layers
         What to draw, such as H,crosses,singularities,cut; by default what the window shows.
     size
@@ -66,8 +70,8 @@ def render(
     from crossview.export.figures import check
     from crossview.export.figures import render as draw
 
-    whole = chosen_case(case, method, repair=repair)
-    found = chosen_case(case, method, component, repair)
+    whole = chosen_case(case, method, repair=repair, features=features)
+    found = chosen_case(case, method, component, repair, features)
     if found.options.component == "all":
         raise CrossviewError("a picture shows one component", "all", "name one with --component")
     shown = None if layers is None else [name.strip() for name in layers.split(",")]

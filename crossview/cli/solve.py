@@ -24,6 +24,7 @@ def solve(
     *,
     output: Output,
     method: str | None = None,
+    features: float | None = None,
     component: str | None = None,
     repair: Flag = False,
     quads: Flag = False,
@@ -43,6 +44,9 @@ def solve(
         Folder for the results: all of them or, after an error, none.
     method
         isotropic, aligned, anisotropic or alternating, instead of the case's.
+    features
+        Degrees: edges over which the surface bends by more are to be followed, as are the curves
+        that the case marks.
     component
         Of a surface in several pieces: largest, a number (0 is the largest), or all, which
         makes a folder for each.
@@ -64,7 +68,7 @@ def solve(
     from crossview.export.report import quads_summary, report, summary
 
     wanted = _wanted(quads, edge_length, target_quads, collapse)
-    found = chosen_case(case, method, component, repair)
+    found = chosen_case(case, method, component, repair, features)
     with staged(output) as staging:
         results = watch(_solved_into(staging, found, wanted), quiet)
     if as_json:

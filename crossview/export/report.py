@@ -13,6 +13,7 @@ from crossview.export.meshes import write_mesh
 from crossview.export.vtp import (
     cross_lines,
     cut_lines,
+    feature_lines,
     field_surface,
     layout_patches,
     separatrix_lines,
@@ -65,6 +66,7 @@ def report(solution: Solution, quads: QuadMesh | None = None) -> dict[str, Any]:
         "tolerance_degrees": problem.options.tolerance_degrees,
         "isotropically_valid": solution.valid,
         "boundary_misalignment_degrees": _floats(np.degrees(_by_loop(solution))),
+        "features": _features(solution),
         **_integrability(solution),
         "layout": _layout(solution),
         **({} if quads is None else {"quads": _quads(quads)}),
@@ -141,6 +143,8 @@ def write_files(solution: Solution, directory: Path, quads: QuadMesh | None = No
     cross_lines(solution).save(directory / "crosses.vtp")
     cut_lines(solution).save(directory / "cut_graph.vtp")
     singularity_points(solution).save(directory / "singularities.vtp")
+    if len(solution.features):
+        feature_lines(solution).save(directory / "features.vtp")
     separatrix_lines(solution).save(directory / "separatrices.vtp")
     if solution.derived.layout is not None:
         layout_patches(solution.derived.layout).save(directory / "layout.vtp")
@@ -211,6 +215,24 @@ def _singularities(solution: Solution) -> list[dict[str, Any]]:
             "locked": s.locked,
         }
         for s in solution.problem.singularities
+    ]
+
+
+def _features(solution: Solution) -> list[dict[str, Any]]:
+    """The feature curves and by how much the crosses miss each."""
+    surface = solution.surface
+    off = np.degrees(solution.field.feature_misalignment)
+    return [
+        {
+            "start": _floats(surface.vertices[curve.vertices[0]]),
+            "end": _floats(surface.vertices[curve.vertices[-1]]),
+            "closed": curve.closed,
+            "length": float(
+                np.linalg.norm(np.diff(surface.vertices[curve.vertices], axis=0), axis=1).sum()
+            ),
+            "misalignment_degrees": float(angle),
+        }
+        for curve, angle in zip(solution.features.curves, off, strict=True)
     ]
 
 

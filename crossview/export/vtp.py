@@ -62,6 +62,21 @@ def cut_lines(solution: Solution) -> pv.PolyData:
     return _lines(solution.surface.vertices[used], pairs.reshape(-1, 2))
 
 
+def feature_lines(solution: Solution) -> pv.PolyData:
+    """The feature edges.
+
+    Cell data: "curve" the number of the curve that each is part of, "misalignment_degrees" the
+    largest angle between it and the crosses.
+    """
+    features = solution.features
+    used, pairs = np.unique(features.ends, return_inverse=True)
+    mesh = _lines(solution.surface.vertices[used], pairs.reshape(-1, 2))
+    mesh.cell_data["curve"] = features.curve_of
+    off = np.degrees(solution.field.feature_misalignment)
+    mesh.cell_data["misalignment_degrees"] = off[features.curve_of]
+    return mesh
+
+
 def singularity_points(solution: Solution) -> pv.PolyData:
     """The singularities as points with "valence" and "index" (quarter turns)."""
     singularities = solution.singularities

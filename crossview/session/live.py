@@ -80,7 +80,8 @@ class LiveBase:
 def prepare(document: Document) -> Generator[Progress, None, LiveBase]:
     """Factor the unrefined surface, for configurations that cannot be solved yet."""
     yield Progress("preparing the surface", 0.1)
-    solver = IsotropicSolver(document.surface, document.corners)
+    features = document.problem.features
+    solver = IsotropicSolver(document.surface, document.corners, features=features)
     yield Progress("preparing the holonomy conditions", 0.6)
     solver.holonomy.defects(())
     return LiveBase(document.surface, solver, lambda point: point)

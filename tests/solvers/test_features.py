@@ -7,7 +7,7 @@ from crossview.case import Case
 from crossview.problem import Problem
 from solvers.aligned import IntegratedField, aligned_field
 from solvers.feature_alignment import nearest_integers
-from solvers.features import Features, edge_path, no_features, sharp_edges
+from solvers.features import EdgePaths, Features, no_features, sharp_edges
 from solvers.integrable import anisotropic_field
 from solvers.isotropic import IsotropicSolver
 from solvers.natural import natural_singularities
@@ -91,9 +91,8 @@ def test_a_square_drawn_on_a_plane_turns_at_its_corners():
         int(np.argmin(np.linalg.norm(surface.vertices - middle - [x / 4, y / 4, 0], axis=1)))
         for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))
     ]
-    features = no_features(surface)
-    for start, end in zip(vertex, vertex[1:] + vertex[:1], strict=True):
-        features = features.united(edge_path(surface, start, end))
+    drawn = EdgePaths(surface).through(np.array([*vertex, vertex[0]]))
+    features = no_features(surface).united(drawn)
     assert sorted(features.corners.tolist()) == sorted(vertex)
     assert len(features.curves) == 4
     assert np.degrees(features.turns[vertex]) == pytest.approx([90] * 4)
