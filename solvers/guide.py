@@ -126,7 +126,7 @@ class Guide:
         return point
 
     def _lines(self, condition: int, level: float) -> LevelLines:
-        corners = self._index * _on_surface(self._holonomy, condition)
+        corners = self._index * self._holonomy.surface_values[condition]
         lines = _integer_lines(corners + (self._others[condition] - level))
         if self._holonomy.discretization.delaunay.n_flips:
             lines = self._exact(lines, condition, level)
@@ -142,7 +142,7 @@ class Guide:
         share, last = lines.share, np.zeros(len(low), dtype=np.int64)
         for _ in range(REFINEMENTS):
             lines = replace(lines, share=share)
-            z = _potential(self._holonomy, condition, lines.faces, lines.weights)
+            z = self._holonomy.values_at(lines.faces, lines.weights)[condition]
             phase = self._index * z + self._others[condition] - level
             off = phase - np.rint(phase)
             rises = off * above < 0  # still on the side of the lower end
@@ -190,8 +190,9 @@ def _integer_lines(corners: FloatArray) -> _Crossings:
 
     Values may jump by whole numbers from one triangle to the next (marching triangles).
     """
-    first = np.floor(corners.min(axis=1))
-    count = (np.floor(corners.max(axis=1)) - first).astype(np.int64)
+    a, b, c = corners.T
+    first = np.floor(np.minimum(np.minimum(a, b), c))
+    count = (np.floor(np.maximum(np.maximum(a, b), c)) - first).astype(np.int64)
     crossed = np.flatnonzero(count)
     faces = np.repeat(crossed, count[crossed])
     before = np.repeat(np.cumsum(count[crossed]) - count[crossed], count[crossed])
@@ -206,31 +207,3 @@ def _integer_lines(corners: FloatArray) -> _Crossings:
     at_start, at_end = off[piece, start], off[piece, end]
     share = at_start / (at_start - at_end)
     return _Crossings(np.repeat(faces, 2), start, end, share, at_start, at_end)
-
-
-def _on_surface(holonomy: Holonomy, condition: int) -> FloatArray:
-    """Return (m, 3) values of a potential at the corners of the surface's own triangles."""
-    d, values = holonomy.discretization, holonomy.corner_values[condition]
-    if not d.delaunay.n_flips:
-        return values
-    t = d.triangulation
-    nodal = np.empty(t.n_vertices)
-    nodal[t.faces] = values
-    faces = np.arange(d.surface.n_faces)
-    centre = _potential(holonomy, condition, faces, np.full((len(faces), 3), 1 / 3))
-    own = nodal[d.surface.faces]
-    return np.asarray(own + np.rint(centre[:, None] - own))
-
-
-def _potential(
-    holonomy: Holonomy, condition: int, faces: IntArray, weights: FloatArray
-) -> FloatArray:
-    """Return the exact values (k,) of a potential at points of the surface, up to whole numbers."""
-    d = holonomy.discretization
-    own = d.surface.triangulation.corner_positions[faces]
-    located = d.delaunay.locate(faces, np.einsum("ki,kid->kd", weights, own))
-    corners = d.triangulation.corner_positions[located.face]
-    third = located.place[:, 1] / corners[:, 2, 1]
-    second = (located.place[:, 0] - third * corners[:, 2, 0]) / corners[:, 1, 0]
-    at = np.stack([1 - second - third, second, third], axis=1)
-    return np.asarray((holonomy.corner_values[condition, located.face] * at).sum(axis=1))

@@ -15,7 +15,7 @@ from solvers.discretization import QUARTER, Condition, Discretization
 from solvers.factorization import Factorization
 from solvers.points import SurfacePoint
 from solvers.singularities import Singularity
-from solvers.triangulation import FloatArray, next_halfedge, wrap
+from solvers.triangulation import FloatArray, IntArray, next_halfedge, wrap
 
 
 class Holonomy:
@@ -75,13 +75,46 @@ class Holonomy:
         """The 2 g + max(b - 1, 0) conditions."""
         return self.discretization.conditions
 
-    @property
-    def corner_values(self) -> FloatArray:
-        """(c, m, 3) the potentials at the corners of the operator's triangles.
+    @cached_property
+    def surface_values(self) -> FloatArray:
+        """(c, m, 3) the potentials at the corners of the surface's own triangles.
 
-        From one triangle to the next they jump by how often the condition's path crosses.
+        From one triangle to the next they jump by how often the condition's path crosses; inside
+        triangles whose edges the operator has flipped they are linear only in between vertices.
         """
-        return self._corner_values
+        d = self.discretization
+        if not d.delaunay.n_flips:
+            return self._corner_values
+        nodal = np.empty((len(self.conditions), d.surface.n_vertices))
+        nodal[:, d.triangulation.faces] = self._corner_values
+        faces = np.arange(d.surface.n_faces)
+        centre = self.values_at(faces, np.full((len(faces), 3), 1 / 3))[:, :, None]
+        own = nodal[:, d.surface.faces]
+        return np.asarray(own + np.rint(centre - own))
+
+    def values_at(self, faces: IntArray, weights: FloatArray) -> FloatArray:
+        """Return the exact values of the potentials at points of the surface.
+
+        Parameters
+        ----------
+        faces : (k,) int array
+            The points' triangles.
+        weights : (k, 3) float array
+            Their barycentric weights.
+
+        Returns
+        -------
+        (c, k) float array
+            Up to whole numbers.
+        """
+        d = self.discretization
+        own = d.surface.triangulation.corner_positions[faces]
+        located = d.delaunay.locate(faces, np.einsum("ki,kid->kd", weights, own))
+        corners = d.triangulation.corner_positions[located.face]
+        third = located.place[:, 1] / corners[:, 2, 1]
+        second = (located.place[:, 0] - third * corners[:, 2, 0]) / corners[:, 1, 0]
+        at = np.stack([1 - second - third, second, third], axis=1)
+        return np.einsum("ckj,kj->ck", self._corner_values[:, located.face], at)
 
     def defects(self, singularities: Sequence[Singularity]) -> FloatArray:
         """Return the defects of a configuration, without solving.
