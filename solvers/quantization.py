@@ -26,7 +26,7 @@ NEAR_ENOUGH = 0.01
 """Relative distance from a wanted number of quads at which looking further ends."""
 
 MOST_ROUNDS = 40
-"""How often what counts break is ruled out before every arc gets an edge."""
+"""How often what counts break is ruled out before the longest arcs concerned get an edge."""
 
 MOST_TRIALS = 8
 """Programs solved at most for a wanted number of quads."""
@@ -170,28 +170,45 @@ def _counts(
 ) -> tuple[IntArray, bool]:
     """Return the nearest counts that make a mesh, and whether they surely are.
 
-    What the nearest counts break is ruled out, until they break nothing; when that takes too long,
-    every arc gets an edge.
+    Whatever the nearest counts break becomes a condition, until they break nothing. When that
+    takes too long, the longest arc of every condition gets an edge, which needs no branching.
     """
     balance = balances(tmesh)
-    end = time.monotonic() + time_limit
+    least = least_counts(tmesh, collapse=collapse)
+    end = time.monotonic() + 0.5 * time_limit
     cuts: list[Cut] = []
-    for tried in range(2 * MOST_ROUNDS):
-        in_time = tried < MOST_ROUNDS and time.monotonic() < end
-        least = least_counts(tmesh, collapse=collapse and in_time)
-        left = max(end - time.monotonic(), 0.1 * time_limit)
+    for _ in range(MOST_ROUNDS):
+        left = end - time.monotonic()
+        if left <= 0:
+            break
         counts, optimal = _program(wanted, balance, least, cuts, left)
+        if counts is None:
+            break
         found = broken(tmesh, counts)
         if not found:
-            return counts, optimal and in_time
+            return counts, optimal
         cuts += found
+    for _ in range(MOST_ROUNDS):
+        longest = [cut.arcs[np.argmax(wanted[cut.arcs])] for cut in cuts]
+        least[longest] = np.maximum(least[longest], 1)
+        counts, _ = _program(wanted, balance, least, cuts, 0.5 * time_limit)
+        found = [] if counts is None else broken(tmesh, counts)
+        if not found:
+            break
+        cuts += found
+    if counts is None:
+        raise SolveError(
+            "no numbers of quads were found for the arcs of the layout",
+            f"within {time_limit:g} s",
+            "choose shorter edges",
+        )
     return counts, False
 
 
 def _program(
     wanted: FloatArray, balance: csr_array, least: IntArray, cuts: list[Cut], time_limit: float
-) -> tuple[IntArray, bool]:
-    """Return counts in balance that are nearest to `wanted`, and whether they surely are.
+) -> tuple[IntArray | None, bool]:
+    """Return counts in balance that are nearest to `wanted`, if any, and whether they surely are.
 
     The unknowns are counts n and deviations t, held above |n - wanted| between whole numbers by
     three lines; so the program without integrality has whole solutions nearly everywhere.
@@ -218,10 +235,5 @@ def _program(
         constraints=constraints,
         options={"time_limit": time_limit},
     )
-    if found.x is None:
-        raise SolveError(
-            "no numbers of quads were found for the arcs of the layout",
-            f"within {time_limit:g} s" if found.status == 1 else str(found.message),
-            "choose shorter edges",
-        )
-    return np.rint(found.x[:k]).astype(np.int64), found.status == 0
+    counts = None if found.x is None else np.rint(found.x[:k]).astype(np.int64)
+    return counts, found.status == 0
