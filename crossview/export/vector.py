@@ -23,8 +23,10 @@ from crossview.scene.colors import (
     CROSS,
     CUT,
     CUT_HALO,
+    FEATURE,
     LOOP,
     MARK_PAPER,
+    PROBLEM,
     QUAD_EDGE,
     THEMES,
     color_table,
@@ -151,7 +153,11 @@ def _draw_marks(sheet: Sheet, view: SceneView) -> None:
 
 def _draw_curves(sheet: Sheet, view: SceneView, triangles: Triangles) -> None:
     points = triangles.points
-    boundary, cut = view.layer("boundary"), view.layer("cut")
+    boundary, cut, features = map(view.layer, ("boundary", "cut", "features"))
+    for edges, color in ((view.features, FEATURE), (view.missed, PROBLEM)):
+        if features.visible and edges is not None and len(edges):
+            width = WIDTH["features"] * features.size
+            sheet.lines(points[edges], color, width, TOWARDS["features"], round_ends=True)
     if boundary.visible:
         segments, width = points[triangles.boundary_edges], WIDTH["boundary"] * boundary.size
         ink = THEMES[view.background].ink
@@ -164,7 +170,9 @@ def _draw_curves(sheet: Sheet, view: SceneView, triangles: Triangles) -> None:
             sheet.lines(ends[pairs], color, width, TOWARDS["cut"], cut.opacity)
     if view.loop is not None and len(view.loop) > 1:
         segments = np.stack([points[view.loop[:-1]], points[view.loop[1:]]], axis=1)
-        sheet.lines(segments, LOOP, WIDTH["loop"], TOWARDS["loop"], round_ends=True)
+        sheet.lines(
+            segments, view.loop_color or LOOP, WIDTH["loop"], TOWARDS["loop"], round_ends=True
+        )
 
 
 def _draw_singularities(sheet: Sheet, view: SceneView, triangles: Triangles) -> None:

@@ -27,7 +27,7 @@ from crossview.scene.camera import Camera
 from crossview.scene.display import ensure_rendering, software_renderer
 from crossview.scene.field import field_view
 from crossview.scene.scene import Scene
-from crossview.scene.values import Curves, Elements, Marker, Quads
+from crossview.scene.values import Curves, Elements, GuideLine, Marker, Quads
 from crossview.scene.view import (
     LAYERS,
     LayerKind,
@@ -42,6 +42,7 @@ __all__ = [
     "Camera",
     "Curves",
     "Elements",
+    "GuideLine",
     "LayerKind",
     "LayerSettings",
     "Marker",

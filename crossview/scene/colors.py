@@ -31,7 +31,19 @@ SURFACE = "#dcdee2"
 CROSS = "#1b1e24"
 CUT = "#1f5fd6"
 CUT_HALO = "#ffffff"
+FEATURE = "#7a3db8"
 LOOP = "#0b8f6f"
+# One for each holonomy condition in turn, none a valence's.
+CONDITIONS = (
+    "#0b8f6f",
+    "#b0207a",
+    "#7a5c00",
+    "#0f6a9a",
+    "#2c3e80",
+    "#4c7a1d",
+    "#a8431e",
+    "#37474f",
+)
 PROBLEM = "#e5182b"
 SEPARATRIX = "#5c626c"
 """Of a curve that leaves no singularity."""
@@ -82,6 +94,11 @@ def rgb(color: str) -> Rgb:
     """Return the three parts, 0 to 1, of a colour's name."""
     red, green, blue = to_rgb(color)
     return float(red), float(green), float(blue)
+
+
+def condition_color(condition: int) -> str:
+    """Return the colour of a holonomy condition: of its loop, row and guide lines."""
+    return CONDITIONS[condition % len(CONDITIONS)]
 
 
 def valence_color(valence: int) -> str:

@@ -1,4 +1,4 @@
-"""Curves on the surface: its boundary, the cut graph, a loop to point out."""
+"""Curves on the surface: its boundary, features, the cut graph, a loop to point out."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 import pyvista as pv
 
 from crossview.scene.actors import MeshActor
-from crossview.scene.colors import CUT, CUT_HALO, LOOP, THEMES
+from crossview.scene.colors import CUT, CUT_HALO, FEATURE, LOOP, PROBLEM, THEMES
 from crossview.scene.geometry import Triangles, dashes
 from crossview.scene.style import WIDTH
 from crossview.scene.view import SceneView
@@ -37,6 +37,40 @@ class BoundaryLayer:
     def remove(self) -> None:
         """Take the boundary off the plotter."""
         self._actor.remove()
+
+
+class FeaturesLayer:
+    """Feature edges in violet, in red where the crosses do not follow them."""
+
+    def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float) -> None:
+        self._followed = MeshActor(plotter, "features")
+        self._missed = MeshActor(plotter, "missed features")
+        for actor, color in ((self._followed, FEATURE), (self._missed, PROBLEM)):
+            actor.flat()
+            actor.color(color)
+        self._pixel_ratio = pixel_ratio
+        self._watch = Watch()
+
+    def show(self, view: SceneView, triangles: Triangles | None) -> None:
+        """Apply what changed."""
+        settings = view.layer("features")
+        for name, actor, edges in (
+            ("followed", self._followed, view.features),
+            ("missed", self._missed, view.missed),
+        ):
+            actor.visible = False
+            if not settings.visible or triangles is None or edges is None or not len(edges):
+                continue
+            if self._watch.changed(name, triangles, edges):
+                used, pairs = np.unique(edges, return_inverse=True)
+                actor.replace(triangles.points[used], lines=pairs.reshape(-1, 2))
+            actor.property.SetLineWidth(WIDTH["features"] * settings.size * self._pixel_ratio)
+            actor.visible = True
+
+    def remove(self) -> None:
+        """Take them off the plotter."""
+        self._followed.remove()
+        self._missed.remove()
 
 
 class CutLayer:
@@ -82,7 +116,6 @@ class LoopLayer:
     def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float) -> None:
         self._actor = MeshActor(plotter, "loop")
         self._actor.flat()
-        self._actor.color(LOOP)
         self._actor.property.SetLineWidth(WIDTH["loop"] * pixel_ratio)
         self._watch = Watch()
 
@@ -95,6 +128,7 @@ class LoopLayer:
         if self._watch.changed("path", triangles, path):
             pairs = np.arange(len(path) - 1)[:, None] + np.array([0, 1])
             self._actor.replace(triangles.points[path], lines=pairs)
+        self._actor.color(view.loop_color or LOOP)
         self._actor.visible = True
 
     def remove(self) -> None:

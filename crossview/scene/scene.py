@@ -11,8 +11,9 @@ from crossview.scene.axes import AxesLayer
 from crossview.scene.camera import Camera, Room, camera_for
 from crossview.scene.colors import THEMES, rgb
 from crossview.scene.crosses import CrossesLayer
-from crossview.scene.curves import BoundaryLayer, CutLayer, LoopLayer
+from crossview.scene.curves import BoundaryLayer, CutLayer, FeaturesLayer, LoopLayer
 from crossview.scene.geometry import FloatArray, IntArray, Triangles
+from crossview.scene.guide import GuideLayer
 from crossview.scene.legend import (
     BAR_ROOM,
     LEGEND_ROOM,
@@ -77,9 +78,11 @@ class Scene:
             QuadsLayer,
             CrossesLayer,
             SeparatricesLayer,
+            FeaturesLayer,
             BoundaryLayer,
             CutLayer,
             LoopLayer,
+            GuideLayer,
             MarksLayer,
             SingularitiesLayer,
             ProblemLayer,

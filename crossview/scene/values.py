@@ -41,7 +41,7 @@ class Curves:
     offsets : (n + 1,) int
         Curve i is ``points[offsets[i]:offsets[i + 1]]``.
     valences : (n,) int
-        Of the singularity that each leaves: its colour; 0: none.
+        Of the singularity that each leaves: its colour; 0 or less: none.
     """
 
     points: FloatArray
@@ -60,6 +60,24 @@ class Curves:
     def segment_valences(self) -> IntArray:
         """(s,): of the curve that each segment belongs to."""
         return np.repeat(self.valences, np.maximum(np.diff(self.offsets) - 1, 0))
+
+
+@dataclass(frozen=True, eq=False)
+class GuideLine:
+    """Where a singularity may go: straight pieces on the surface.
+
+    Parameters
+    ----------
+    segments : (s, 2, 3) float
+        Both ends of each piece.
+    color : str
+    strong : bool
+        Whether it is emphasised.
+    """
+
+    segments: FloatArray
+    color: str
+    strong: bool
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,15 @@ from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Any, Literal
 
-from crossview.scene.values import Curves, Elements, FloatArray, IntArray, Marker, Quads
+from crossview.scene.values import (
+    Curves,
+    Elements,
+    FloatArray,
+    GuideLine,
+    IntArray,
+    Marker,
+    Quads,
+)
 from solvers.errors import CrossviewError
 
 Background = Literal["white", "dark", "transparent"]
@@ -85,8 +93,10 @@ LAYERS: tuple[LayerKind, ...] = (
         visible=False,
         edges=True,
     ),
+    LayerKind("guide", "Validity guide", ("size",)),
     LayerKind("singularities", "Singularities", ("size",)),
     LayerKind("cut", "Cut graph", ("opacity", "size"), visible=False),
+    LayerKind("features", "Features", ("size",)),
     LayerKind("boundary", "Boundary", ("size",)),
     LayerKind("legend", "Valence legend"),
     LayerKind("axes", "Axes"),
@@ -139,8 +149,16 @@ class SceneView:
         The dot that the add tool carries.
     cut_graph : (k, 2) int, optional
         Vertex pairs.
+    features : (k, 2) int, optional
+        Vertex pairs of edges that crosses are to follow.
+    missed : (k, 2) int, optional
+        Those of them on curves that the crosses do not follow.
     loop : (k,) int, optional
         Vertices of a path to point out (a holonomy condition's).
+    loop_color : str
+        Empty for its own.
+    guide : tuple of GuideLine
+        Where the singularity under the mouse may go.
     problem : Elements, optional
         Offending elements to point out.
     separatrices : Curves, optional
@@ -170,7 +188,11 @@ class SceneView:
     singularities: tuple[Marker, ...] = ()
     preview: Marker | None = None
     cut_graph: IntArray | None = None
+    features: IntArray | None = None
+    missed: IntArray | None = None
     loop: IntArray | None = None
+    loop_color: str = ""
+    guide: tuple[GuideLine, ...] = ()
     problem: Elements | None = None
     separatrices: Curves | None = None
     t_junctions: FloatArray | None = None
