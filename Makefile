@@ -3,6 +3,7 @@
 # make bench  the performance figures
 # make table  the table of docs/anisotropic.md (minutes); CROSSVIEW_DATA names a folder of surfaces
 # make study  100 random configurations made valid: the table of docs/make_valid.md (minutes)
+# make bench-peers  quads beside other meshers, on the same surfaces: the table of docs/quads.md (minutes)
 # make clean  forget the environment and every cache
 PYTHON ?= python3
 VENV := .venv
@@ -12,7 +13,7 @@ PICTURE := crossview.png
 XVFB := $(if $(filter Darwin,$(shell uname)),,xvfb-run -a -s "-screen 0 1600x1200x24")
 PIP_INSTALL := $(VENV)/bin/python -m pip install --disable-pip-version-check
 
-.PHONY: run test bench table study clean
+.PHONY: run test bench table study bench-peers clean
 
 run:
 	@sh tools/system-packages.sh window "$(PYTHON)"
@@ -40,6 +41,10 @@ table:
 study:
 	@$(MAKE) --no-print-directory $(VENV)/installed
 	$(VENV)/bin/python -m benchmarks.make_valid docs/make_valid.md
+
+bench-peers:
+	@$(MAKE) --no-print-directory $(VENV)/installed-peers
+	$(VENV)/bin/python -m benchmarks.peers docs/quads.md
 
 $(VENV)/bin/python:
 	"$(PYTHON)" -m venv $(VENV)

@@ -161,11 +161,11 @@ def mesh(layout: QuadLayout, options: MeshOptions) -> Generator[Progress, None, 
     number = options.number_on(surface)
     yield Progress("choosing numbers of quads", 0.0)
     if options.edge_length is None:
-        chosen = quantize_to(tmesh, number)
+        chosen = quantize_to(tmesh, number, collapse=options.collapse)
     else:
         # the map is not as large as the surface
         scale = np.sqrt(tmesh.area / surface.area)
-        chosen = quantize(tmesh, options.edge_length * scale)
+        chosen = quantize(tmesh, options.edge_length * scale, collapse=options.collapse)
     yield Progress("filling the patches", 0.3)
     filled = fill(layout, chosen.counts)
     if options.smooth:

@@ -197,11 +197,13 @@ def _quads(mesh: QuadMesh) -> dict[str, Any]:
         "vertices": mesh.n_vertices,
         "quads": mesh.n_quads,
         "non_quads": 0,
+        "patches": len(np.unique(mesh.patch)),
         "irregular": {str(valence): count for valence, count in mesh.irregular.items()},
         "irregular_on_boundary": {str(valence): count for valence, count in mesh.corners.items()},
         "euler_characteristic": mesh.euler_characteristic,
         "min_scaled_jacobian": float(quality.min()),
         "mean_scaled_jacobian": float(quality.mean()),
+        "inverted": int(np.count_nonzero(quality <= 0)),
         "max_distance_to_surface": mesh.max_distance_to_surface,
     }
 

@@ -47,7 +47,7 @@ def test_the_cubes_eight_give_the_cubes_six_patches(meshed, tmp_path):
     assert (layout["patches"], layout["separatrices"], layout["conforming"]) == (6, 12, True)
     assert (layout["t_junctions"], layout["limit_cycles"], layout["flips"]) == (0, 0, 0)
     assert quads["irregular"] == {"3": 8}
-    assert (quads["non_quads"], quads["euler_characteristic"]) == (0, 2)
+    assert (quads["non_quads"], quads["inverted"], quads["euler_characteristic"]) == (0, 0, 2)
     assert quads["quads"] == quads["vertices"] - 2 == 600
     assert quads["min_scaled_jacobian"] > 0.8
     assert quads["mean_scaled_jacobian"] > 0.95
@@ -95,6 +95,27 @@ def test_the_edge_length_is_that_on_the_surface(meshed):
     surface = BUILTIN["annulus"]()
     report = meshed("annulus", (), "--edge-length", 0.05, "--quiet")
     assert report["quads"]["quads"] == pytest.approx(surface.area / 0.05**2, rel=0.1)
+
+
+def test_a_coarse_mesh_of_fewer_patches_keeps_its_singularities(crossview, tmp_path):
+    asked = [
+        "solve",
+        "closed-H",
+        "-o",
+        tmp_path / "out",
+        "--quads",
+        "--target-quads",
+        200,
+        "--json",
+    ]
+    fine, coarse = (crossview(*asked, *more).json for more in ((), ("--collapse",)))
+    assert fine["layout"] == coarse["layout"]
+    assert fine["layout"]["t_junctions"] > 0
+    assert fine["quads"]["patches"] == fine["layout"]["patches"] > coarse["quads"]["patches"]
+    for quads in (fine["quads"], coarse["quads"]):
+        assert quads["irregular"] == {"3": 10, "6": 1}
+        assert quads["euler_characteristic"] == 2
+        assert quads["inverted"] == 0
 
 
 def test_without_quads_the_separatrices_are_told_all_the_same(crossview, tmp_path):
