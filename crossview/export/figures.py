@@ -19,6 +19,7 @@ from crossview.scene import (
     layers_named,
 )
 from crossview.scene.camera import read_camera
+from crossview.scene.field import feature_lines
 from crossview.scene.view import Background
 from crossview.staging import staged
 
@@ -45,7 +46,8 @@ def render(
         PNG, or SVG or PDF for curves and crosses as vectors.
     layers : sequence of str, optional
         Names of the layers drawn: surface, H, theta, H1, H2, aspect, error, crosses,
-        singularities, cut, boundary, legend, axes. By default what the window shows at first.
+        singularities, cut, features, boundary, legend, axes. By default what the window shows at
+        first.
     size : (int, int)
         Width and height; pixels if the scale is 1.
     scale : float
@@ -74,6 +76,9 @@ def render(
         cut_graph,
         layers=chosen,
         background="transparent" if transparent else background,
+        **feature_lines(
+            solution.features, solution.field, solution.problem.options.tolerance_degrees
+        ),
     )
     return render_view(view, path, size=size, scale=scale, camera=camera)
 

@@ -10,6 +10,7 @@ from crossview.scene.geometry import FloatArray, IntArray, Triangles
 from crossview.scene.values import Marker
 from crossview.scene.view import SceneView
 from solvers.crossfield import CrossField
+from solvers.features import Features
 
 
 def field_view(field: CrossField, cut_graph: IntArray | None = None, **others: Any) -> SceneView:
@@ -41,6 +42,27 @@ def field_view(field: CrossField, cut_graph: IntArray | None = None, **others: A
         cut_graph=cut_graph,
         **values,
     )
+
+
+def feature_lines(
+    features: Features, field: CrossField | None, tolerance_degrees: float
+) -> dict[str, IntArray]:
+    """Return the feature edges for a `SceneView`: all, and those that the crosses miss.
+
+    Parameters
+    ----------
+    features : Features
+        On the surface that is shown.
+    field : CrossField or None
+        What is shown on it; None: nothing is missed.
+    tolerance_degrees : float
+        Angle from which a curve counts as missed.
+    """
+    lines: dict[str, IntArray] = {"features": features.ends}
+    if field is not None and len(features):
+        off = np.abs(np.degrees(field.feature_misalignment)) > tolerance_degrees
+        lines["missed"] = features.ends[off[features.curve_of]]
+    return lines
 
 
 def cross_angle(triangles: Triangles, u: FloatArray) -> FloatArray:
