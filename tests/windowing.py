@@ -122,9 +122,16 @@ class Hand:
         )
         return rows[:, : 3 * image.width()].reshape(image.height(), image.width(), 3).copy()
 
-    def shows(self, color: str, place: QPointF | None = None, reach: int = 4) -> bool:
-        """Whether the picture has the colour (name), near a place of the viewport or anywhere."""
-        return count_color(self.picture(), color, self._pixel(place), reach) > 0
+    def shows(
+        self, color: str, place: QPointF | None = None, reach: int = 4, *, line: bool = False
+    ) -> bool:
+        """Whether the picture has the colour (name) anywhere, or as a patch at a place of it.
+
+        A line of the colour that passes the place counts only where one is looked for.
+        """
+        reach = round(reach * self.canvas.devicePixelRatioF())
+        found = count_color(self.picture(), color, self._pixel(place), reach)
+        return found > (0 if place is None or line else 0.4 * (2 * reach + 1) ** 2)
 
     def _pixel(self, place: QPointF | None) -> tuple[int, int] | None:
         if place is None:

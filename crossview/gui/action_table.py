@@ -154,6 +154,11 @@ ACTIONS: tuple[ActionSpec, ...] = (
         separated=True,
     ),
     ActionSpec(
+        "save-quads", "Save quads as…", "File", lambda w: w.files.ask_save_quads(),
+        ("Ctrl+Shift+S",), "save", "Write the quad mesh as OBJ, VTK, VTU, PLY, GLTF or MSH",
+        lambda s: s.made.quads is not None,
+    ),
+    ActionSpec(
         "quit", "Quit", "File", lambda w: w.close(), ("Ctrl+Q",), tip="Close the window",
         separated=True,
     ),
@@ -228,6 +233,10 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "Solve again with refinement at the singularities", _solvable,
     ),
     ActionSpec(
+        "mesh", "Make quads", "Solve", lambda w: w.make_quads(), ("F6", "Q"), "mesh",
+        "Fill the surface with quads along the field, as the Quads panel says", _solvable,
+    ),
+    ActionSpec(
         "stop", "Stop", "Solve", lambda w: w.workspace.solving.stop(), ("Shift+F5",), "stop",
         "Stop the computation; the last field stays", lambda s: s.progress is not None,
     ),
@@ -260,8 +269,8 @@ ACTIONS: tuple[ActionSpec, ...] = (
 
 TOOLBAR: tuple[str, ...] = (
     "open", "|", "undo", "redo", "|", "select", "add-3", "add-5", "add-6", "add-8", "add-any",
-    "any-valence", "|", "method", "solve", "stop", "->", "fit", "figure",
+    "any-valence", "|", "method", "solve", "stop", "->", "fit", "figure", "mesh",
 )  # fmt: skip
 """Names of actions; "|" is a line, "->" pushes the rest to the right."""
 
-LABELLED = ("open", "solve", "stop", "figure")
+LABELLED = ("open", "solve", "stop", "figure", "mesh")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt
@@ -13,7 +14,7 @@ if TYPE_CHECKING:
 LEFT, RIGHT = Qt.DockWidgetArea.LeftDockWidgetArea, Qt.DockWidgetArea.RightDockWidgetArea
 LEFT_WIDTH, RIGHT_WIDTH = 316, 232
 LEFT_LEAST, RIGHT_LEAST = 272, 208
-TABS = ("Convergence", "Export")
+TABS = ("Convergence", "Quads", "Export")
 """Docks that share one place, the first in front."""
 
 
@@ -25,6 +26,7 @@ def add_docks(window: MainWindow) -> dict[str, QDockWidget]:
         ("Validity", window.validity_panel, LEFT),
         ("Layers", window.layers_panel, RIGHT),
         ("Convergence", window.convergence_panel, RIGHT),
+        ("Quads", window.quads_panel, RIGHT),
         ("Export", window.export_panel, RIGHT),
     )
     docks = {}
@@ -39,7 +41,8 @@ def add_docks(window: MainWindow) -> dict[str, QDockWidget]:
         window.addDockWidget(area, dock)
         docks[title] = dock
     window.setTabPosition(RIGHT, QTabWidget.TabPosition.North)
-    window.tabifyDockWidget(*(docks[title] for title in TABS))
+    for title, following in pairwise(TABS):
+        window.tabifyDockWidget(docks[title], docks[following])
     docks[TABS[0]].raise_()
     return docks
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtWidgets import QFileDialog
 
 from crossview.export.figures import render_view
+from crossview.export.meshes import write_mesh
 from crossview.gui.recent import remember
 from crossview.gui.scene_view import figure_view
 from crossview.io import SUFFIXES
@@ -17,6 +18,18 @@ if TYPE_CHECKING:
     from crossview.gui.main_window import MainWindow
 
 FIGURES = "PNG picture (*.png);;SVG drawing (*.svg);;PDF drawing (*.pdf)"
+MESHES = ";;".join(
+    f"{title} (*{suffix})"
+    for title, suffix in (
+        ("Wavefront OBJ", ".obj"),
+        ("VTK", ".vtk"),
+        ("VTK XML", ".vtu"),
+        ("PLY", ".ply"),
+        ("glTF, as triangles", ".gltf"),
+        ("glTF binary, as triangles", ".glb"),
+        ("Gmsh", ".msh"),
+    )
+)
 SAID_MS = 4000
 
 
@@ -91,6 +104,25 @@ class Files:
             window.statusBar().showMessage(f"Wrote {path}", SAID_MS)
 
         window.workspace.attempt("export", write)
+
+    def ask_save_quads(self) -> None:
+        """Ask where to write the quads, and write them."""
+        path, _ = QFileDialog.getSaveFileName(
+            self._window, "Save the quads", self._suggested(".obj"), MESHES
+        )
+        if path:
+            self.save_quads(Path(path))
+
+    def save_quads(self, path: Path) -> None:
+        """Write the quads that are shown."""
+        quads = self._window.workspace.state.made.quads
+
+        def write() -> None:
+            if quads is not None:
+                write_mesh(quads, path)
+                self._window.statusBar().showMessage(f"Wrote {path}", SAID_MS)
+
+        self._window.workspace.attempt("export", write)
 
     def _folder(self) -> str:
         return str(Path(self._target).parent) if Path(self._target).is_file() else str(Path.home())

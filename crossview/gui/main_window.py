@@ -26,6 +26,7 @@ from crossview.gui.panels import (
     ConvergencePanel,
     ExportPanel,
     LayersPanel,
+    QuadsPanel,
     SingularitiesPanel,
     SurfacePanel,
     ValidityPanel,
@@ -86,6 +87,7 @@ class MainWindow(QMainWindow):
         self.validity_panel = ValidityPanel(self.workspace, named["make-valid"])
         self.layers_panel = LayersPanel(self.workspace)
         self.convergence_panel = ConvergencePanel(named["compare"])
+        self.quads_panel = QuadsPanel(named["mesh"], named["save-quads"])
         self.export_panel = ExportPanel(named["figure"])
         self.docks = add_docks(self)
         self.menus = Menus(self)
@@ -109,6 +111,11 @@ class MainWindow(QMainWindow):
     def show_palette(self) -> None:
         """Open the command palette."""
         Palette(self.menus.titled_actions(), self).popup()
+
+    def make_quads(self) -> None:
+        """Make quads as the Quads panel says, and show it."""
+        self.docks["Quads"].raise_()
+        self.workspace.meshing.make(self.quads_panel.options)
 
     def show_about(self) -> None:
         """Say what this is."""
@@ -158,6 +165,7 @@ class MainWindow(QMainWindow):
             self.validity_panel,
             self.layers_panel,
             self.convergence_panel,
+            self.quads_panel,
             self.method_box,
             self.status,
         ):

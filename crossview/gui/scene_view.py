@@ -11,6 +11,7 @@ from crossview.gui.figure_settings import FigureSettings
 from crossview.gui.ranges import NO_RANGES, Ranges
 from crossview.gui.state import WindowState
 from crossview.scene import Elements, LayerSettings, Marker, SceneView, field_view
+from crossview.scene.meshes import curves_of, patches_of, quads_of, t_junctions_of
 from crossview.scene.view import Background
 from crossview.session.document import Document
 from solvers.crossfield import CrossField
@@ -52,7 +53,7 @@ def scene_view(state: WindowState, held: Ranges = NO_RANGES) -> SceneView:
     if field is None:
         view = SceneView(surface.vertices, surface.faces)
     else:
-        view = field_view(field, state.cut_graph)
+        view = _with_meshes(field_view(field, state.cut_graph), state)
         start = _start(state)
         if state.comparing and start is not None:
             view = replace(view, error_density=start.error_density)
@@ -61,10 +62,24 @@ def scene_view(state: WindowState, held: Ranges = NO_RANGES) -> SceneView:
         singularities=markers,
         preview=_preview(state, surface),
         loop=_loop(state),
-        problem=Elements(faces=poor_faces(surface)) if state.poor else None,
+        problem=Elements(faces=poor_faces(surface)) if state.poor else state.pointed,
         title=_title(state, document),
         background=background,
         layers=_layers(state.layers, held),
+    )
+
+
+def _with_meshes(view: SceneView, state: WindowState) -> SceneView:
+    """Return the view with what has been made of the field."""
+    made, separatrices = state.made, state.separatrices
+    if separatrices is not None:
+        curves, t_junctions = curves_of(separatrices), t_junctions_of(separatrices)
+        view = replace(view, separatrices=curves, t_junctions=t_junctions)
+    return replace(
+        view,
+        misaligned=made.misaligned,
+        layout=None if made.layout is None else patches_of(made.layout),
+        quads=None if made.quads is None else quads_of(made.quads),
     )
 
 

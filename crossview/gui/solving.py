@@ -6,17 +6,24 @@ from collections.abc import Callable, Generator
 from functools import partial
 from typing import Any, TypeVar
 
+from PySide6.QtCore import QTimer
+
 from crossview.gui.background import Background
 from crossview.gui.panels.texts import energy
 from crossview.gui.state import Message
 from crossview.gui.store import Store
 from crossview.session.live import LiveBase, LiveEdit, cut, prepare
+from crossview.session.meshes import Meshes
 from crossview.session.methods import Iterate, MethodSolver, Solved
 from crossview.session.moving import Moving
-from solvers.crossfield import CrossField
+from crossview.session.tracing import LiveTracer, Traced
 from solvers.progress import Progress
+from solvers.triangulation import IntArray
 
 T = TypeVar("T")
+
+STILL_MS = 150
+"""How long the mouse is still before separatrices left out in a drag are traced."""
 
 
 class Solving:
@@ -29,6 +36,12 @@ class Solving:
         self._background.progressed.connect(self._progressed)
         self._background.stopped.connect(lambda: self._when_stopped())
         self._when_stopped: Callable[[], None] = self._say_stopped
+        self._pursuits: list[Callable[[], bool]] = [self._cut]
+        self._tracer = LiveTracer()
+        self._still = QTimer(store)
+        self._still.setSingleShot(True)
+        self._still.setInterval(STILL_MS)
+        self._still.timeout.connect(self._trace_live)
 
     @property
     def busy(self) -> bool:
@@ -43,6 +56,7 @@ class Solving:
         stopped: Callable[[], None] | None = None,
     ) -> None:
         """Run any job in place of what runs now; `stopped` is called if the user stops it."""
+        self._still.stop()
         self._when_stopped = stopped or self._say_stopped
         self._store.set(iterate=None, moving=None)
         self._background.submit(job, done, fail)
@@ -75,20 +89,18 @@ class Solving:
 
     def try_out(self, edit: LiveEdit) -> None:
         """Show the field of an edit on the kept factor; one that has none yet shows none."""
-        self.run(edit.solve, self._show_live, lambda error: None)
+        traced = self._store.state.layers["separatrices"].visible
+        job = partial(self._tracer.follow, edit, traced)
+        self.run(job, self._show_live, lambda error: None)
 
-    def cut_if_wanted(self) -> None:
-        """Compute the cut graph when its layer is visible and it is not there yet."""
-        state = self._store.state
-        solution = state.solution
-        if solution is None or state.cut_graph is not None or not state.layers["cut"].visible:
-            return
-        if not self.busy:  # else it is asked again when the solution has come
-            self.run(
-                partial(cut, solution),
-                lambda edges: self._store.set(cut_graph=edges),
-                self._failed,
-            )
+    def pursue_also(self, pursuit: Callable[[], bool]) -> None:
+        """Let `pursuit` start something, and say whether it did, when there is time for it."""
+        self._pursuits.append(pursuit)
+
+    def pursue(self) -> None:
+        """Start one thing that is wanted and not there yet; each calls again when it is done."""
+        if not self.busy:  # else it is asked again when the answer has come
+            any(pursuit() for pursuit in self._pursuits)
 
     def stop(self) -> None:
         """Stop; what is shown stays."""
@@ -96,6 +108,7 @@ class Solving:
 
     def close(self) -> None:
         """End the background thread."""
+        self._still.stop()
         self._background.close()
 
     def restore(self) -> None:
@@ -103,7 +116,7 @@ class Solving:
         state = self._store.state
         if state.solution is not None and state.solved:
             self._store.set(field=state.solution.field, cut_graph=None)
-            self.cut_if_wanted()
+            self.pursue()
         else:
             self.follow()
 
@@ -132,10 +145,39 @@ class Solving:
             iterate=None,
             cut_graph=None,
         )
-        self.cut_if_wanted()
+        self.pursue()
 
-    def _show_live(self, field: CrossField) -> None:
-        self._store.set(field=field, cut_graph=None)
+    def _cut(self) -> bool:
+        """Compute the cut graph when its layer is visible and it is not there yet."""
+        state = self._store.state
+        solution = state.solution
+        if solution is None or state.cut_graph is not None or not state.layers["cut"].visible:
+            return False
+
+        def show(edges: IntArray) -> None:
+            self._store.set(cut_graph=edges)
+            self.pursue()
+
+        self.run(partial(cut, solution), show, self._failed)
+        return True
+
+    def _show_live(self, traced: Traced) -> None:
+        changes: dict[str, Any] = {"field": traced.field, "cut_graph": None}
+        if traced.separatrices is not None:
+            changes["meshes"] = Meshes(traced.field, traced.separatrices)
+        self._store.set(**changes)
+        if traced.separatrices is None and self._store.state.layers["separatrices"].visible:
+            self._still.start()
+
+    def _trace_live(self) -> None:
+        """Trace what was left out for speed, now that the mouse is still."""
+        state = self._store.state
+        if state.trial is not None and state.field is not None and not self.busy:
+            self.run(
+                partial(self._tracer.catch_up, state.field),
+                self._show_live,
+                lambda error: None,
+            )
 
     def _failed(self, error: Exception) -> None:
         self._store.set(solution=None, field=None, start=None, iterate=None, cut_graph=None)

@@ -13,11 +13,13 @@ from crossview.problem import Problem
 from crossview.scene import Elements, LayerSettings, default_layers
 from crossview.session.document import Document
 from crossview.session.live import LiveBase, LiveEdit
+from crossview.session.meshes import NO_MESHES, Meshes
 from crossview.session.methods import Iterate
 from crossview.session.moving import Moving
 from solvers.crossfield import CrossField
 from solvers.points import SurfacePoint
 from solvers.progress import Progress
+from solvers.separatrices import Separatrices
 from solvers.singularities import IndexBudget, Singularity, index_budget
 from solvers.surface import TriSurface
 from solvers.triangulation import FloatArray, IntArray
@@ -64,6 +66,8 @@ class Message:
     actions : tuple of MessageAction
     faulty : Faulty or None
         What it is about, to be shown in the scene as long as the message stands.
+    pointed : Elements or None
+        The same, where it is a part of the surface shown.
     """
 
     text: str
@@ -72,6 +76,7 @@ class Message:
     details: str = ""
     actions: tuple[MessageAction, ...] = ()
     faulty: Faulty | None = None
+    pointed: Elements | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,6 +128,8 @@ class WindowState:
         Whether the error density of `start` is shown in place of that of `field`.
     cut_graph : (k, 2) int array or None
         Vertex pairs, of the field of `solution`; only computed while its layer is visible.
+    meshes : Meshes
+        Separatrices, layout and quads, of a field that may no longer be `field`: see `made`.
     tool : int or None
         Valence that the add tool carries; None: the select tool.
     any_valence : int
@@ -152,6 +159,7 @@ class WindowState:
     moving: Moving | None = None
     comparing: bool = False
     cut_graph: IntArray | None = None
+    meshes: Meshes = NO_MESHES
     tool: int | None = None
     any_valence: int = 7
     selected: int | None = None
@@ -187,6 +195,22 @@ class WindowState:
     def faulty(self) -> Faulty | None:
         """What is shown in place of the document while its message stands."""
         return None if self.message is None else self.message.faulty
+
+    @property
+    def pointed(self) -> Elements | None:
+        """What the message points out on the surface shown."""
+        return None if self.message is None else self.message.pointed
+
+    @property
+    def made(self) -> Meshes:
+        """What has been made of the field that is drawn: nothing that is of another."""
+        return self.meshes if self.meshes.of is self.field else NO_MESHES
+
+    @property
+    def separatrices(self) -> Separatrices | None:
+        """The separatrices to draw; in a drag they may be a moment behind the field."""
+        dragged = self.trial is not None and self.trial.drag and self.field is not None
+        return self.meshes.separatrices if dragged else self.made.separatrices
 
     @property
     def budget(self) -> IndexBudget | None:

@@ -10,6 +10,7 @@ from typing import Any
 from PySide6.QtCore import QObject, Signal
 
 from crossview.gui.state import Message, MessageAction, WindowState
+from crossview.scene import Elements
 from solvers.errors import CrossviewError, SurfaceError
 
 MOST_LISTED = 200
@@ -37,7 +38,11 @@ class Store(QObject):
             self.changed.emit(old, self._state)
 
     def fail(
-        self, error: BaseException, cause: str, actions: tuple[MessageAction, ...] = ()
+        self,
+        error: BaseException,
+        cause: str,
+        actions: tuple[MessageAction, ...] = (),
+        pointed: Elements | None = None,
     ) -> None:
         """Show an error until its cause is gone (`clear_message`).
 
@@ -49,13 +54,15 @@ class Store(QObject):
             What was tried.
         actions : tuple of MessageAction
             What may be done about it.
+        pointed : Elements, optional
+            Where it is on the surface shown.
         """
         if isinstance(error, CrossviewError):
             text, details = str(error), describe(error)
         else:
             text = f"Something went wrong: {error or type(error).__name__}"
             details = "".join(traceback.format_exception(error))
-        self.set(message=Message(text, cause, "error", details, actions))
+        self.set(message=Message(text, cause, "error", details, actions, pointed=pointed))
 
     def clear_message(self, cause: str) -> None:
         """Take the message away if this was its cause."""

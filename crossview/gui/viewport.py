@@ -220,6 +220,7 @@ class Viewport(QWidget):
 def _same_picture(old: WindowState, new: WindowState) -> bool:
     """Whether only what the scene does not show differs."""
     unseen = {"message", "progress", "iterate", "undo_name", "redo_name"}
-    return old.faulty is new.faulty and all(
+    told = old.faulty is new.faulty and old.pointed is new.pointed
+    return told and all(
         getattr(old, name) is value for name, value in vars(new).items() if name not in unseen
     )

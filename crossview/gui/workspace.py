@@ -8,6 +8,7 @@ from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 
+from crossview.gui.meshing import Meshing
 from crossview.gui.moves import Moves
 from crossview.gui.solving import Solving
 from crossview.gui.state import Faulty, MessageAction
@@ -45,6 +46,7 @@ class Workspace(Store):
         self.solving = Solving(self)
         self.trials = Trials(self, self.solving, self.do)
         self.moves = Moves(self, self.solving, self.do)
+        self.meshing = Meshing(self, self.solving, self.do, self.moves.make_valid)
 
     def close(self) -> None:
         """End the background thread."""
@@ -145,7 +147,7 @@ class Workspace(Store):
     def set_layer(self, name: str, **changes: Any) -> None:
         """Change settings of one layer."""
         self.set(layers=self.state.with_layer(name, **changes).layers)
-        self.solving.cut_if_wanted()
+        self.solving.pursue()
 
     def _locate(self, target: str, error: SurfaceError) -> None:
         """Show what could not be opened, the offending elements pointed out."""
@@ -189,5 +191,6 @@ class Workspace(Store):
         elif not document.budget.satisfied:
             changes |= {"solution": None, "field": None, "start": None, "cut_graph": None}
         self.clear_message("edit")
+        self.clear_message("mesh")
         self.set(**changes)
         self.solving.follow()

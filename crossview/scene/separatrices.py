@@ -56,5 +56,5 @@ class SeparatricesLayer:
 
 
 def separatrix_color(valence: int) -> str:
-    """Return the colour of a curve that leaves a singularity of this valence; 0: none."""
-    return valence_color(valence) if valence else SEPARATRIX
+    """Return the colour of a curve that leaves a singularity of this valence; 0 or less: none."""
+    return valence_color(valence) if valence > 0 else SEPARATRIX

@@ -66,7 +66,7 @@ def test_where_the_trouble_is_can_be_seen(hand: Hand, tmp_path: Path) -> None:
     bar.action_buttons[1].click()
     hand.wait(lambda: hand.state.faulty is not None)
     assert hand.window.viewport.isVisible()
-    assert hand.shows(PROBLEM, hand.place((0.5, 0.5, 0.0)))
+    assert hand.shows(PROBLEM, hand.place((0.5, 0.5, 0.0)), line=True)
     assert not hand.shows(PROBLEM, hand.place((0.5, 0.0, 0.0)))
     hand.window.workspace.set(message=None)  # dismissed
     assert hand.window.centre.empty.isVisible()

@@ -23,6 +23,7 @@ from crossview.scene.colors import CYCLIC, DIVERGING, color_table
 from crossview.scene.scalars import SCALARS
 
 STEPS = 100
+COLORINGS = {"quality": "Scaled Jacobian", "patch": "Patches", "plain": "Plain"}
 FACTOR = 4.0  # sliders of factors go from 1/FACTOR to FACTOR, 1 in the middle
 
 
@@ -44,7 +45,8 @@ class LayerEditor(QWidget):
             "color_map": self._add_color_map,
             "value_range": self._add_range,
             "uniform": lambda: self._add_check("One size", "uniform"),
-            "edges": lambda: self._add_check("Triangle edges", "edges"),
+            "edges": lambda: self._add_check("Edges", "edges"),
+            "coloring": self._add_coloring,
         }
         for setting in kind.settings:
             make[setting]()
@@ -104,8 +106,22 @@ class LayerEditor(QWidget):
 
         self._refresh.append(refresh)
 
+    def _add_coloring(self) -> None:
+        combo = QComboBox()
+        combo.setObjectName("coloring")
+        for name, label in COLORINGS.items():
+            combo.addItem(label, name)
+        combo.activated.connect(lambda at: self._set(coloring=combo.itemData(at)))
+        self._form.addRow("Colours", combo)
+
+        def refresh(settings: LayerSettings) -> None:
+            with QSignalBlocker(combo):
+                combo.setCurrentIndex(combo.findData(settings.coloring))
+
+        self._refresh.append(refresh)
+
     def _add_range(self) -> None:
-        auto = QCheckBox("Fit range to data")
+        auto = QCheckBox("Range 0 to 1" if self._name == "quads" else "Fit range to data")
         low, high = _number(-1.0), _number(1.0)
         pair = QHBoxLayout()
         pair.setContentsMargins(0, 0, 0, 0)

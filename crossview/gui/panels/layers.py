@@ -61,6 +61,8 @@ class LayersPanel(QWidget):
             visible = new.layers[kind.name].visible
             self.list.item(row).setIcon(icon("eye" if visible else "eye-off"))
             self.editors[kind.name].show_settings(new.layers[kind.name])
+            if visible and old is not None and not old.layers[kind.name].visible:
+                self.list.setCurrentRow(row)  # its settings are at hand
 
     def toggle(self, name: str) -> None:
         """Show or hide a layer."""

@@ -1,0 +1,151 @@
+"""Keeps separatrices and layout in step with the field, and makes quads when asked."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+from crossview.gui.solving import Solving
+from crossview.gui.state import MessageAction, WindowState
+from crossview.gui.store import Store
+from crossview.meshing import MeshOptions
+from crossview.scene import Elements
+from crossview.session.commands import ChooseMethod, Command
+from crossview.session.meshes import Meshes, lay_out, make_quads, trace
+from solvers.arrangement import LayoutError
+from solvers.crossfield import CrossField
+
+KEPT = 4
+"""Fields whose meshes are kept: one for each method."""
+
+
+class Meshing:
+    """Makes in the background what is shown of separatrices, layout and quads.
+
+    Parameters
+    ----------
+    store : Store
+    solving : Solving
+        Calls `pursue` whenever it has nothing else to do.
+    do : callable
+        Makes a command one step of the history.
+    make_valid : callable
+        The verb that moves the singularities to validity.
+    """
+
+    def __init__(
+        self,
+        store: Store,
+        solving: Solving,
+        do: Callable[[Command], None],
+        make_valid: Callable[[], None],
+    ) -> None:
+        self._store = store
+        self._solving = solving
+        self._do = do
+        self._make_valid = make_valid
+        self._kept: list[Meshes] = []
+        self._next: MeshOptions | None = None
+        self._told: LayoutError | None = None
+        solving.pursue_also(self.pursue)
+        store.changed.connect(self._forget_next)
+
+    def make(self, options: MeshOptions) -> None:
+        """Make the quads of the present solution; one that is still to come is waited for."""
+        state = self._store.state
+        self._store.clear_message("mesh")
+        if not state.solved or state.solution is None or state.field is not state.solution.field:
+            self._next = options
+            self._solving.resume()
+            return
+        self._next = None
+        made = self._made(state.solution.field)
+        job = partial(make_quads, state.solution, made, options)
+        self._solving.run(job, partial(self._show_quads, options), self._failed)
+
+    def pursue(self) -> bool:
+        """Start what is wanted next and not there yet; return whether there was any."""
+        state = self._store.state
+        solution = state.solution
+        if solution is None or state.field is not solution.field:
+            return False
+        made = self._made(solution.field)
+        if made is not state.meshes:
+            self._store.set(meshes=made)
+        if self._next is not None and state.solved:
+            self.make(self._next)
+            return True
+        layers = state.layers
+        curves = layers["separatrices"].visible or layers["marks"].visible
+        if curves and not made.settled:
+            self._solving.run(partial(trace, solution, made), self._show, self._failed)
+            return True
+        if made.trouble is not None:
+            if layers["layout"].visible and made.trouble is not self._told:
+                self._refuse(made.trouble, None)
+        elif made.layout is None and (curves or layers["layout"].visible):
+            self._solving.run(partial(lay_out, solution, made), self._show, self._failed)
+            return True
+        return False
+
+    def _made(self, field: CrossField) -> Meshes:
+        """Return what there is of a field."""
+        shown = self._store.state.meshes
+        if shown.of is field:
+            return shown
+        return next((made for made in self._kept if made.of is field), Meshes(field))
+
+    def _show(self, made: Meshes) -> None:
+        self._kept = [made, *(kept for kept in self._kept if kept.of is not made.of)][:KEPT]
+        self._store.set(meshes=made)
+        self._solving.pursue()
+
+    def _show_quads(self, options: MeshOptions, made: Meshes) -> None:
+        if made.trouble is not None:
+            self._refuse(made.trouble, options)
+        else:
+            layers = self._store.state.with_layer("quads", visible=True).layers
+            self._store.set(layers=layers)
+        self._show(made)
+
+    def _refuse(self, trouble: LayoutError, options: MeshOptions | None) -> None:
+        """Say why there is no layout, where, and what may be done."""
+        self._told = trouble
+        pointed = Elements(faces=trouble.faces) if len(trouble.faces) else None
+        self._store.fail(trouble, "mesh", self._offers(trouble, options), pointed)
+
+    def _failed(self, error: Exception) -> None:
+        self._store.fail(error, "mesh")
+
+    def _offers(
+        self, trouble: LayoutError, options: MeshOptions | None
+    ) -> tuple[MessageAction, ...]:
+        """Return the remedies that the error itself names; each goes on to quads if wanted."""
+
+        def then(remedy: Callable[[], None]) -> Callable[[], None]:
+            def mend() -> None:
+                remedy()
+                self._next = options
+
+            return mend
+
+        offers = (
+            ("make-valid", "Make valid", self._make_valid),
+            ("anisotropic", "Solve anisotropic", self._solve_anisotropic),
+        )
+        return tuple(
+            MessageAction(label, then(remedy))
+            for word, label, remedy in offers
+            if word in trouble.remedy
+        )
+
+    def _solve_anisotropic(self) -> None:
+        self._do(ChooseMethod("anisotropic"))
+
+    def _forget_next(self, old: WindowState, new: WindowState) -> None:
+        """Wait no longer for a solution that fails to come."""
+        said = new.message
+        if said is None or said is old.message:
+            return
+        if said.severity == "error" or said.text.startswith("Stopped"):
+            self._next = None

@@ -1,0 +1,84 @@
+"""A small histogram of the scaled Jacobian, in the colours of its colour bar."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import QWidget
+
+from crossview.gui.panels.texts import BAD, MINUS
+from crossview.scene.colors import color_table
+from crossview.scene.scalars import SCALARS
+from solvers.triangulation import FloatArray, IntArray
+
+BINS, STEP, LEAST_HEIGHT = 20, 0.1, 2.0
+"""Bars, steps that the range begins at, and pixels that a bar with anything in it has."""
+MARGIN, GAP = 8.0, 1.0
+
+
+class Histogram(QWidget):
+    """How many quads there are of each quality, from the worst found to 1."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.counts: IntArray = np.zeros(0, int)
+        self.low = 0.0
+        self._colors: list[QColor] = []
+        self.setMinimumHeight(72)
+        self.setAccessibleName("Quads by scaled Jacobian")
+
+    def sizeHint(self) -> QSize:
+        """A size that suits a dock."""
+        return QSize(200, 90)
+
+    def show_values(self, values: FloatArray) -> None:
+        """Draw these qualities, at least one."""
+        worst = float(values.min())
+        # at least two steps, so that a mesh of squares is no single bar over nothing
+        self.low = min(math.floor(worst / STEP + 1e-9) * STEP, 1.0 - 2.0 * STEP)
+        edges = np.linspace(self.low, 1.0, BINS + 1)
+        self.counts = np.histogram(np.minimum(values, 1.0), edges)[0]
+        self._colors = [_color(centre) for centre in (edges[:-1] + edges[1:]) / 2.0]
+        self.setToolTip("Scaled Jacobian: 1 is a square, 0 or less a quad that is folded over")
+        self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint bars and the range below."""
+        if not len(self.counts):
+            return
+        with QPainter(self) as painter:
+            metrics = QFontMetricsF(self.font())
+            frame = QRectF(self.rect()).adjusted(MARGIN, 4, -MARGIN, -metrics.height() - 4)
+            faint = self.palette().color(self.foregroundRole())
+            faint.setAlphaF(0.55)
+            across, most = frame.width() / len(self.counts), int(self.counts.max()) or 1
+            painter.setPen(Qt.PenStyle.NoPen)
+            for i, count in enumerate(self.counts.tolist()):
+                height = max(frame.height() * count / most, LEAST_HEIGHT) if count else 0.0
+                painter.setBrush(self._colors[i])
+                left = frame.left() + i * across
+                painter.drawRect(
+                    QRectF(left, frame.bottom() - height, max(across - GAP, 1.0), height)
+                )
+            painter.setPen(QPen(faint, 1))
+            painter.drawLine(
+                QPointF(frame.left(), frame.bottom() + 0.5),
+                QPointF(frame.right(), frame.bottom() + 0.5),
+            )
+            below = QRectF(frame.left(), frame.bottom() + 2, frame.width(), metrics.height())
+            low = f"{self.low:.1f}".replace("-", MINUS)
+            painter.drawText(below, Qt.AlignmentFlag.AlignLeft, low)
+            painter.drawText(below, Qt.AlignmentFlag.AlignHCenter, "scaled Jacobian")
+            painter.drawText(below, Qt.AlignmentFlag.AlignRight, "1")
+
+
+def _color(quality: float) -> QColor:
+    """Return the colour of a quality, a little darker to be seen on white."""
+    if quality <= 0.0:
+        return QColor(BAD)
+    table = color_table(SCALARS["quads"].color_map)
+    red, green, blue = table[round(quality * (len(table) - 1)), :3].tolist()
+    return QColor(red, green, blue).darker(118)

@@ -1,0 +1,74 @@
+"""What is said of a quad mesh: its numbers beside what was imposed, and whether all is well."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from crossview.gui.panels.texts import MINUS, count, grouped
+from crossview.pipeline import Solution
+from solvers.layout import QuadLayout
+from solvers.quadmesh import QuadMesh
+
+ROWS = (
+    "Vertices",
+    "Quads",
+    "Irregular",
+    "Corners",
+    "Euler",
+    "Scaled Jac.",
+    "Patches",
+    "T-junctions",
+    "Flips",
+)
+"""Titles of the facts, in their order."""
+
+
+@dataclass(frozen=True)
+class QuadFacts:
+    """A verdict, whether it is good, and the facts by their titles."""
+
+    good: bool
+    verdict: str
+    rows: Mapping[str, str]
+
+
+def quad_facts(layout: QuadLayout, mesh: QuadMesh, solution: Solution) -> QuadFacts:
+    """Compare a quad mesh with what was imposed."""
+    wanted = Counter(s.valence for s in solution.singularities if s.valence != 4)
+    corners = Counter(2 - k for k in solution.problem.chosen_corners.values() if k != 0)
+    quality = mesh.scaled_jacobian
+    worst = float(quality.min())
+    folded = int((quality <= 0.0).sum())
+    euler = solution.surface.euler_characteristic
+    as_imposed = mesh.irregular == dict(wanted) and mesh.corners == dict(corners)
+    good = as_imposed and not folded and mesh.euler_characteristic == euler
+    if folded:
+        verdict = f"{count(folded, 'quad')} folded over; try more quads or smoothing."
+    elif not as_imposed:
+        verdict = "The irregular vertices are not those imposed."
+    else:
+        verdict = "All quads, irregular exactly where imposed."
+    rows = {
+        "Vertices": grouped(mesh.n_vertices),
+        "Quads": grouped(mesh.n_quads),
+        "Irregular": _beside(mesh.irregular, wanted, "valence"),
+        "Corners": _beside(mesh.corners, corners, "quads at"),
+        "Euler": f"{mesh.euler_characteristic} of {euler}".replace("-", MINUS),
+        "Scaled Jac.": f"min {worst:.2f}, mean {float(quality.mean()):.3f}".replace("-", MINUS),
+        "Patches": f"{grouped(layout.patches)}, {'' if layout.conforming else 'not '}conforming",
+        "T-junctions": grouped(len(layout.t_junctions)),
+        "Flips": grouped(layout.flips) + (f", {layout.mended} mended" if layout.mended else ""),
+    }
+    return QuadFacts(good, verdict, rows)
+
+
+def _beside(found: Mapping[int, int], wanted: Mapping[int, int], noun: str) -> str:
+    """Return a line per kind: how many there are, and how many were imposed if that differs."""
+    lines = []
+    for kind in sorted({*found, *wanted}):
+        there, imposed = found.get(kind, 0), wanted.get(kind, 0)
+        beside = "as imposed" if there == imposed else f"{imposed} imposed"
+        lines.append(f"{there} of {noun} {kind}, {beside}")
+    return "\n".join(lines) or "none, as imposed"

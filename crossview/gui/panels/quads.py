@@ -1,0 +1,168 @@
+"""The Quads panel: how fine they are to be, and what has come of it."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QLocale, Qt
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QComboBox,
+    QDoubleSpinBox,
+    QFormLayout,
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QScrollArea,
+    QSpinBox,
+    QStackedWidget,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from crossview.gui.icons import dot_icon
+from crossview.gui.panels.histogram import Histogram
+from crossview.gui.panels.quad_facts import ROWS, quad_facts
+from crossview.gui.panels.texts import BAD, GOOD
+from crossview.gui.panels.validity import DOT
+from crossview.gui.state import WindowState
+from crossview.meshing import DEFAULT_QUADS, MeshOptions
+from solvers.surface import TriSurface
+
+COUNT, LENGTH = range(2)
+MOST_QUADS = 1_000_000
+NOTHING = "No quads yet."
+STALE = "The quads were of an earlier state and are gone; make them again."
+
+
+class QuadsPanel(QScrollArea):
+    """Edits `MeshOptions`, makes quads and says what they are like."""
+
+    def __init__(self, make: QAction, save: QAction, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.unit = QComboBox()
+        self.unit.addItems(["Quads", "Edge length"])
+        self.unit.setToolTip("What is given: about how many quads, or how long their edges are")
+        self.count_box = QSpinBox()
+        self.count_box.setRange(1, MOST_QUADS)
+        self.count_box.setSingleStep(500)
+        self.count_box.setValue(DEFAULT_QUADS)
+        self.length_box = QDoubleSpinBox()
+        self.length_box.setDecimals(4)
+        self.length_box.setRange(1e-4, 1e6)
+        self.length_box.setToolTip("Mean length of the quads' edges, in units of the surface")
+        self.boxes = QStackedWidget()
+        for box in (self.count_box, self.length_box):
+            box.setLocale(QLocale.c())
+            box.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
+            self.boxes.addWidget(box)
+        self.boxes.setMaximumHeight(self.count_box.sizeHint().height())
+        self.unit.currentIndexChanged.connect(self.boxes.setCurrentIndex)
+        self.collapse = QCheckBox("Collapse short arcs")
+        self.collapse.setToolTip("Fewer, larger patches: what is nearly in line comes into line")
+        self.smooth = QCheckBox("Smooth")
+        self.smooth.setToolTip("Let the vertices slide on the surface to better quads")
+        self.smooth.setChecked(True)
+        self.button = QPushButton(make.icon(), make.text())
+        self.button.setToolTip(make.toolTip())
+        self.button.clicked.connect(make.trigger)
+        self.button.setEnabled(make.isEnabled())
+        make.enabledChanged.connect(self.button.setEnabled)
+        self.save_button = QToolButton()
+        self.save_button.setDefaultAction(save)
+        self._dot, self.said = QLabel(), QLabel(NOTHING)
+        self.said.setWordWrap(True)
+        self.said.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.facts: dict[str, QLabel] = {}
+        self.histogram = Histogram()
+        self._lay_out()
+        self._show(WindowState())
+
+    @property
+    def options(self) -> MeshOptions:
+        """What the boxes say."""
+        by_count = self.unit.currentIndex() == COUNT
+        return MeshOptions(
+            edge_length=None if by_count else self.length_box.value(),
+            target_quads=self.count_box.value() if by_count else None,
+            collapse=self.collapse.isChecked(),
+            smooth=self.smooth.isChecked(),
+        )
+
+    def show_state(self, old: WindowState, new: WindowState) -> None:
+        """Follow the window's state."""
+        before = None if old.document is None else old.document.surface
+        if new.document is not None and new.document.surface is not before:
+            self._suggest(new.document.surface)
+        if old.made is not new.made or old.solution is not new.solution:
+            self._show(new)
+
+    def _suggest(self, surface: TriSurface) -> None:
+        """Set the edge length to that of as many quads as are wanted on a new surface."""
+        length = (surface.area / self.count_box.value()) ** 0.5
+        self.length_box.setSingleStep(float(f"{length / 10.0:.1g}"))
+        self.length_box.setValue(length)
+
+    def _show(self, state: WindowState) -> None:
+        made = state.made
+        quads = made.quads if state.solution is not None else None
+        self._form.setVisible(quads is not None)
+        self.histogram.setVisible(quads is not None)
+        self._dot.setVisible(quads is not None)
+        self.save_button.setVisible(quads is not None)
+        if quads is None or made.layout is None or state.solution is None:
+            gone = state.meshes.quads is not None and state.document is not None
+            self.said.setText(STALE if gone else NOTHING)
+            return
+        facts = quad_facts(made.layout, quads, state.solution)
+        self._dot.setPixmap(dot_icon(GOOD if facts.good else BAD).pixmap(DOT))
+        self.said.setText(facts.verdict)
+        for title, text in facts.rows.items():
+            self.facts[title].setText(text)
+        self.histogram.show_values(quads.scaled_jacobian)
+
+    def _lay_out(self) -> None:
+        content = QWidget()
+        self.setWidget(content)
+        self.setWidgetResizable(True)
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        for area in (content, self.viewport()):
+            area.setAutoFillBackground(False)
+        layout = QVBoxLayout(content)
+        layout.setContentsMargins(10, 8, 10, 8)
+        layout.setSpacing(6)
+        wanted = QHBoxLayout()
+        wanted.setSpacing(6)
+        wanted.addWidget(self.unit)
+        wanted.addWidget(self.boxes, 1)
+        layout.addLayout(wanted)
+        layout.addWidget(self.smooth)
+        layout.addWidget(self.collapse)
+        layout.addWidget(self.button)
+        said = QHBoxLayout()
+        said.setSpacing(8)
+        said.addWidget(self._dot, 0, Qt.AlignmentFlag.AlignTop)
+        said.addWidget(self.said, 1)
+        layout.addLayout(said)
+        self._form = QWidget()
+        form = QFormLayout(self._form)
+        form.setContentsMargins(0, 0, 0, 0)
+        form.setVerticalSpacing(3)
+        form.setHorizontalSpacing(8)
+        for title in ROWS:
+            self.facts[title] = QLabel()
+            self.facts[title].setWordWrap(True)
+            self.facts[title].setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+            form.addRow(_faint(title), self.facts[title])
+        layout.addWidget(self._form)
+        layout.addWidget(self.histogram)
+        layout.addWidget(self.save_button)
+        layout.addStretch(1)
+
+
+def _faint(text: str) -> QLabel:
+    label = QLabel(text)
+    label.setForegroundRole(label.palette().ColorRole.PlaceholderText)
+    return label

@@ -1,0 +1,103 @@
+"""What is made of a field: separatrices, layout, quads; always of one field, never of another."""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from crossview.meshing import MeshOptions, layout, mesh, misaligned_boundaries, separatrices
+from crossview.pipeline import Solution
+from solvers.arrangement import LayoutError
+from solvers.crossfield import CrossField
+from solvers.layout import QuadLayout
+from solvers.progress import Progress, relayed
+from solvers.quadmesh import QuadMesh
+from solvers.separatrices import Separatrices
+from solvers.triangulation import FloatArray
+
+LAID_OUT = 0.6
+"""Share of a whole computation of quads that the layout takes, for its progress."""
+
+
+@dataclass(frozen=True, eq=False)
+class Meshes:
+    """What has been made of a field so far.
+
+    Parameters
+    ----------
+    of : CrossField or None
+        The field; None: there is none.
+    separatrices : Separatrices or None
+    settled : bool
+        Whether the misaligned boundaries and what separatrices there are have been found.
+    misaligned : (k, 3) float array
+        A place on each boundary that the field is not aligned with.
+    layout : QuadLayout or None
+    trouble : LayoutError or None
+        Why there can be no layout.
+    quads : QuadMesh or None
+    options : MeshOptions
+        What the quads were made with.
+    """
+
+    of: CrossField | None = None
+    separatrices: Separatrices | None = None
+    settled: bool = False
+    misaligned: FloatArray = field(default_factory=lambda: np.empty((0, 3)))
+    layout: QuadLayout | None = None
+    trouble: LayoutError | None = None
+    quads: QuadMesh | None = None
+    options: MeshOptions = field(default_factory=MeshOptions)
+
+
+NO_MESHES = Meshes()
+
+Making = Generator[Progress, None, Meshes]
+
+
+def trace(solution: Solution, made: Meshes) -> Making:
+    """Trace the separatrices of a solution, and find the boundaries that it misses.
+
+    They are exact once there is a layout.
+    """
+    yield Progress("tracing separatrices", 0.0)
+    return _traced(solution, made)
+
+
+def lay_out(solution: Solution, made: Meshes) -> Making:
+    """Cut the surface of a solution into rectangles; what prevents it is part of the result."""
+    try:
+        found = yield from layout(solution)
+    except LayoutError as trouble:
+        return replace(_traced(solution, made), layout=None, trouble=trouble)
+    yield Progress("sampling the patches", 1.0)
+    _ = found.patch_mesh  # cached: drawing asks for it
+    return replace(_traced(solution, made), layout=found, trouble=None)
+
+
+def make_quads(solution: Solution, made: Meshes, options: MeshOptions) -> Making:
+    """Make the quad mesh of a solution, with its layout if that is not there yet."""
+    laid_out = made
+    share = 0.0
+    if made.layout is None:
+        share = LAID_OUT
+        laid_out = yield from relayed(lay_out(solution, made), lambda s: _within(s, 0.0, share))
+    if laid_out.layout is None:
+        return laid_out
+    filling = mesh(laid_out.layout, options)
+    quads = yield from relayed(filling, lambda s: _within(s, share, 1.0))
+    _ = quads.scaled_jacobian, quads.irregular, quads.corners, quads.on_boundary
+    return replace(laid_out, quads=quads, options=options)
+
+
+def _traced(solution: Solution, made: Meshes) -> Meshes:
+    """Return `made` with the best separatrices there are and the boundaries that are missed."""
+    _, places = misaligned_boundaries(solution)
+    found = separatrices(solution)
+    return replace(made, of=solution.field, separatrices=found, settled=True, misaligned=places)
+
+
+def _within(step: Progress, start: float, end: float) -> Progress:
+    return replace(step, fraction=start + (end - start) * step.fraction)

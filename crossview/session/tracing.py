@@ -1,0 +1,49 @@
+"""Separatrices while the mouse moves: as often as leaves the field its time."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Generator
+from dataclasses import dataclass
+
+from crossview.session.live import LiveEdit
+from solvers.crossfield import CrossField
+from solvers.progress import Progress
+from solvers.separatrices import Separatrices, field_separatrices
+
+PAUSES = 3.0
+"""Between two tracings there are so many times the seconds that one takes."""
+
+
+@dataclass(frozen=True, eq=False)
+class Traced:
+    """A field of a drag and its separatrices, None where they were left out for speed."""
+
+    field: CrossField
+    separatrices: Separatrices | None
+
+
+class LiveTracer:
+    """Traces fields of a drag, one after the other, all on one thread."""
+
+    def __init__(self) -> None:
+        self._seconds = 0.0
+        self._ended = 0.0
+
+    def follow(self, edit: LiveEdit, wanted: bool) -> Generator[Progress, None, Traced]:
+        """Solve an edit; trace it if that is wanted and there is time."""
+        field = yield from edit.solve()
+        rested = time.monotonic() - self._ended >= PAUSES * self._seconds
+        return self._traced(field) if wanted and rested else Traced(field, None)
+
+    def catch_up(self, field: CrossField) -> Generator[Progress, None, Traced]:
+        """Trace a field that was left out."""
+        yield from ()
+        return self._traced(field)
+
+    def _traced(self, field: CrossField) -> Traced:
+        start = time.monotonic()
+        found = field_separatrices(field)
+        self._ended = time.monotonic()
+        self._seconds = self._ended - start
+        return Traced(field, found)
