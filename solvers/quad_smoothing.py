@@ -1,9 +1,10 @@
 """Smoothing of a quad mesh on its surface: every quad is drawn towards a rectangle.
 
-Local step: each quad asks its corners to be those of the rectangle of its own mean sides that lies
-nearest, so that sizes and aspects stay what they are. Global step: each vertex takes the mean of
-what its quads ask for, and is put back on the surface or on its rail. Where a quad would become
-worse than the worst before, its vertices stay.
+Local step: each quad asks its corners to be those of the nearest rectangle whose sides are its own
+mean sides, drawn somewhat towards those it had at first, so that sizes and aspects stay. Global
+step: each vertex takes the mean of what its quads ask for, small quads counting as much as large
+ones, and is put back on the surface or on its rail. Where a quad would become worse than the worst
+before, its vertices stay.
 """
 
 from __future__ import annotations
@@ -24,6 +25,15 @@ ROUNDS = 30
 
 STAGES = 3
 """Such rounds at most, poor quads improved one by one after each."""
+
+PULL = 0.3
+"""How much of a rectangle's sides, in logarithms, is what they were at first."""
+
+WORST = 0.1
+"""What the worst quad counts beside the mean of all, when rounds are compared."""
+
+PATIENCE, LITTLE = 5, 1e-4
+"""Rounds without as much improvement, after which no more are tried."""
 
 RETREATS = 10
 """How often vertices around spoilt quads are put back before a round is given up."""
@@ -87,22 +97,46 @@ def _smoothed(sliding: Sliding, places: Places, held: IntArray, rounds: int) -> 
     fixed = mesh.fixed.copy()
     fixed[held] = True
     free = np.flatnonzero(~fixed)
+    sides = np.linalg.norm(_mean_sides(mesh.vertices[mesh.quads]), axis=2)
+    sides = np.maximum(sides, 1e-9 * sides.max(initial=1e-300))
     for _ in range(STAGES):
-        for _ in range(rounds):
-            places = _round(sliding, places, free)
+        places = _rounds(sliding, places, free, sides, rounds)
         if sliding.quality(places, mesh.quads).min(initial=1.0) >= POOR:
             break
         places = improve_worst(sliding, places, free)
     return places
 
 
-def _round(sliding: Sliding, places: Places, free: IntArray) -> Places:
+def _rounds(
+    sliding: Sliding, places: Places, free: IntArray, sides: FloatArray, rounds: int
+) -> Places:
+    """Return the best places of many rounds, which end when they lead to nothing better."""
+    best, best_score, since = places, _score(sliding, places), 0
+    for _ in range(rounds):
+        places = _round(sliding, places, free, sides)
+        score = _score(sliding, places)
+        since = 0 if score > best_score + LITTLE else since + 1
+        if score > best_score:
+            best, best_score = places, score
+        if since == PATIENCE:
+            break
+    return best
+
+
+def _score(sliding: Sliding, places: Places) -> float:
+    quality = sliding.quality(places, sliding.mesh.quads)
+    return float(quality.mean() + WORST * quality.min()) if len(quality) else 0.0
+
+
+def _round(sliding: Sliding, places: Places, free: IntArray, sides: FloatArray) -> Places:
     """Return the places after a local and a global step that leaves no quad below the worst."""
     mesh, quads = sliding.mesh, sliding.mesh.quads
     outward = mesh.surface.face_normals[places.faces[quads]].sum(axis=1)
-    asked = rectangles(places.vertices[quads], outward).reshape(-1, 3)
-    total = [np.bincount(quads.reshape(-1), x, mesh.n_vertices) for x in asked.T]
-    means = np.stack(total, axis=1) / mesh.valence[:, None]
+    asked = rectangles(places.vertices[quads], outward, sides).reshape(-1, 3)
+    weight = np.repeat(1 / sides.prod(axis=0), 4)
+    total = [np.bincount(quads.reshape(-1), weight * x, mesh.n_vertices) for x in asked.T]
+    weights = np.bincount(quads.reshape(-1), weight, mesh.n_vertices)
+    means = np.stack(total, axis=1) / weights[:, None]
     moved = places.put(free, sliding.moved(places, free, means[free]))
     least = sliding.quality(places, quads).min(initial=1.0)
     for _ in range(RETREATS):
@@ -114,8 +148,8 @@ def _round(sliding: Sliding, places: Places, free: IntArray) -> Places:
     return places
 
 
-def rectangles(corners: FloatArray, outward: FloatArray) -> FloatArray:
-    """Return, for each quad, the rectangle with its mean sides that lies nearest to it.
+def rectangles(corners: FloatArray, outward: FloatArray, sides: FloatArray) -> FloatArray:
+    """Return, for each quad, the nearest rectangle of about its own sides.
 
     Parameters
     ----------
@@ -123,24 +157,31 @@ def rectangles(corners: FloatArray, outward: FloatArray) -> FloatArray:
         Counter-clockwise seen from outside.
     outward : (q, 3) float array
         Vectors that point to the outside; a quad that is turned over asks to be turned back.
+    sides : (2, q) float array
+        Lengths that the sides, from corner 0 to 1 and from 1 to 2, are drawn to.
 
     Returns
     -------
     (q, 4, 3) float array
         Corners of the rectangles.
     """
-    a, b, c, d = (corners[:, i] for i in range(4))
-    first, second = 0.5 * (b - a + c - d), 0.5 * (c - b + d - a)
-    width = np.linalg.norm(first, axis=1)[:, None]
-    height = np.linalg.norm(second, axis=1)[:, None]
+    first, second = _mean_sides(corners)
+    width, height = np.linalg.norm([first, second], axis=2) ** (1 - PULL) * sides**PULL
     first, second = _unit(first), _unit(second)
     over = (np.cross(first, second) * outward).sum(axis=1) <= 0
     # The diagonals of the square on unit vectors along the mean sides are orthogonal.
     long, short = _unit(first + second), first - second
     short = _unit(np.where(over[:, None], np.cross(long, outward), short))
-    u, v = np.sqrt(0.125) * width * (long + short), np.sqrt(0.125) * height * (long - short)
+    u = np.sqrt(0.125) * width[:, None] * (long + short)
+    v = np.sqrt(0.125) * height[:, None] * (long - short)
     middle = corners.mean(axis=1)
     return np.stack([middle - u - v, middle + u - v, middle + u + v, middle - u + v], axis=1)
+
+
+def _mean_sides(corners: FloatArray) -> FloatArray:
+    """Return (2, q, 3) the means of opposite sides of quads (q, 4, 3)."""
+    a, b, c, d = (corners[:, i] for i in range(4))
+    return 0.5 * np.stack([b - a + c - d, c - b + d - a])
 
 
 def _unit(vectors: FloatArray) -> FloatArray:

