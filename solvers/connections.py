@@ -7,8 +7,6 @@ turned as a whole, it is turned to where most neighbours lie on common lines.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from scipy.sparse import coo_array, csc_array
 
@@ -19,44 +17,51 @@ from solvers.triangulation import FloatArray, IntArray, wrap
 NEAR = 0.02
 """Nodes this much off a line, of its length, are put on it, if the mesh does not resolve that."""
 
+ACCIDENT = 0.1
+"""And if so near a passing by accident is less likely than this."""
+
 ALIKE = np.radians(0.5)
 """Spread of the directions between nodes that count as one when a turn is chosen."""
 
 
-@dataclass(frozen=True, eq=False)
-class Passing:
-    """Traces that pass a node.
+def passing(traces: Traces, crossings: Crossings, n_nodes: int) -> IntArray:
+    """Return the first node that each trace passes too closely.
 
     Parameters
     ----------
-    chord : (p, 2) int array
-        Where the trace meets one that leaves the node at right angles: the chords of both.
+    traces, crossings
+        The traces and where they cross.
+    n_nodes : int
+        Number of nodes they leave.
+
+    Returns
+    -------
+    (p, 2) int array
+        Where a trace meets one that leaves the node at right angles: the chords of both. The
+        least accidental come first.
     """
-
-    chord: IntArray
-
-
-def passing(traces: Traces, crossings: Crossings) -> Passing:
-    """Return the first node that each trace passes too closely."""
     both = [crossings, Crossings(*(values[:, ::-1] for values in vars(crossings).values()))]
     chord = np.concatenate([c.chord for c in both])
     trace = np.concatenate([c.trace for c in both])
     at = np.concatenate([c.at for c in both])
-    close = at[:, 1] < np.minimum(NEAR * at[:, 0], traces.chart.edge_length)
+    chart = traces.chart
+    # In the strip around a trace there are this many nodes by accident.
+    accident = 2 * at[:, 0] * at[:, 1] * n_nodes / chart.area
+    close = (at[:, 1] < np.minimum(NEAR * at[:, 0], chart.edge_length)) & (accident < ACCIDENT)
     order = np.flatnonzero(close)[np.lexsort((at[close, 0], trace[close, 0]))]
-    first = np.unique(trace[order, 0], return_index=True)[1]
-    return Passing(chord[order[first]])
+    first = order[np.unique(trace[order, 0], return_index=True)[1]]
+    return chord[first[np.argsort(accident[first], kind="stable")]]
 
 
-def conditions(traces: Traces, passed: Passing, turn: float) -> csc_array:
+def conditions(traces: Traces, passed: IntArray, turn: float) -> csc_array:
     """Return the rows (p, 6 m) that take the passed nodes onto the traces.
 
     Parameters
     ----------
     traces : Traces
         In the map of images turned by `-turn`.
-    passed : Passing
-        What passes what.
+    passed : (p, 2) int array
+        What passes what, as `passing` returns it.
     turn : float
         See `traces`, radians.
 
@@ -67,7 +72,7 @@ def conditions(traces: Traces, passed: Passing, turn: float) -> csc_array:
     """
     chords = traces.chords
     rows, columns, values = [], [], []
-    for number, (a, b) in enumerate(passed.chord):
+    for number, (a, b) in enumerate(passed):
         over = _corner_steps(traces, a)
         back = _corner_steps(traces, b)
         turned = AXES[chords.axis[b]] / AXES[chords.axis[a]]
@@ -81,7 +86,7 @@ def conditions(traces: Traces, passed: Passing, turn: float) -> csc_array:
         rows.append(np.full(2 * len(halfedge), number))
         columns.append(np.stack([2 * halfedge, 2 * halfedge + 1], axis=1).reshape(-1))
         values.append(np.stack([factor.imag, factor.real], axis=1).reshape(-1))
-    shape = (len(passed.chord), 6 * traces.chart.triangulation.n_faces)
+    shape = (len(passed), 6 * traces.chart.triangulation.n_faces)
     if not rows:
         return csc_array(shape)
     indices = (np.concatenate(rows), np.concatenate(columns))

@@ -40,6 +40,9 @@ LONGEST = 4.0
 JOININGS = 4
 """How often the map is fitted again so that separatrices meet the nodes they nearly meet."""
 
+SPOILT = 0.03
+"""Distance of a map from what the field asks for beyond which separatrices are not joined."""
+
 MISALIGNED = 1e-4
 """Angle between the cross and the boundary, radians, beyond which there is no layout."""
 
@@ -135,15 +138,14 @@ def quad_layout(integrated: IntegratedField) -> Generator[Progress, None, QuadLa
         map_.turn(best_turn(drawing.traces, drawing.crossings))
         drawing = drawing.again()
     for _ in range(JOININGS):
-        found = passing(drawing.traces, drawing.crossings)
-        if not len(found.chord):
-            break
-        map_.join(conditions(drawing.traces, found, map_.turned))
+        found = drawing.passing
         yield Progress("joining separatrices", 0.6)
+        if not len(found) or not map_.join(conditions(drawing.traces, found, map_.turned)):
+            break
         drawing = drawing.again()
     map_.require_upright()
     yield Progress("cutting into rectangles", 0.8)
-    while (seed := drawing.bare()) is not None:
+    while (seed := drawing.missing()) is not None:
         drawing = drawing.seeded(*seed)
     return drawing.layout()
 
@@ -197,11 +199,23 @@ class _Map:
         self.turned = angle
         self.chart = self._chart()
 
-    def join(self, rows: csc_array) -> None:
-        """Fit the map again so that also these combinations of images vanish."""
-        self._rows = rows if self._rows is None else csc_array(vstack([self._rows, rows]))
-        self._fit.join(self._rows)
-        self.chart = self._chart()
+    def join(self, rows: csc_array) -> bool:
+        """Fit the map again so that also combinations of images vanish: of the first as many rows
+        as do not spoil it. Return whether it was.
+        """
+        before = self._fit
+        allowed = max(SPOILT, 2 * before.map.distance)
+        count = rows.shape[0]
+        while count:
+            more = rows[:count]
+            joined = more if self._rows is None else csc_array(vstack([self._rows, more]))
+            fit = before.joined(joined)
+            if len(fit.map.flipped) <= len(before.map.flipped) and fit.map.distance < allowed:
+                self._rows, self._fit = joined, fit
+                self.chart = self._chart()
+                return True
+            count //= 2
+        return False
 
     def _chart(self) -> Chart:
         images = self._fit.map.images @ np.array([1, 1j]) * np.exp(-1j * self.turned)
@@ -246,6 +260,11 @@ class _Drawing:
         return stops(self.traces, self.crossings)
 
     @property
+    def passing(self) -> IntArray:
+        """Which traces pass nodes too closely, as `connections.passing`."""
+        return passing(self.traces, self.crossings, len(self._nodes))
+
+    @property
     def _critical(self) -> BoolArray:
         return np.arange(len(self._nodes)) < len(self._nodes) - self._n_seeds
 
@@ -259,7 +278,7 @@ class _Drawing:
         seed = node_at(self._map.chart, vertex, quads)
         return _Drawing(self._map, [*self._nodes, seed], self._n_seeds + 1)
 
-    def bare(self) -> tuple[int, int] | None:
+    def missing(self) -> tuple[int, int] | None:
         """Return where traces are missing, and the number of quads that meet there."""
         loops = boundary_halfedges(self._map.surface)
         if not loops and not self._nodes:

@@ -9,6 +9,7 @@ cross and sizes give, which is not, with more weight, until none is.
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import dataclass
 
 import numpy as np
@@ -87,12 +88,11 @@ class SeamlessFit:
 
     def __init__(self, integrability: Integrability, x: FloatArray) -> None:
         t = integrability.triangulation
-        self._conditions = _Conditions(integrability)
         self._weight = np.maximum(t.weights, LEAST_WEIGHT / 2) * _by_size(integrability, x)
         self._wanted = _wanted(integrability, x)
         self._upright = _wanted_by_means(integrability, x)
         self._stiffer = np.zeros(t.n_faces, dtype=bool)
-        self._fit = _Fit(self._conditions, self._wanted, self._weight)
+        self._fit = _Fit(_Conditions(integrability), self._wanted, self._weight)
         self.map = self._mended(None)
 
     @property
@@ -100,8 +100,8 @@ class SeamlessFit:
         """Number of triangles made stiffer."""
         return int(self._stiffer.sum())
 
-    def join(self, rows: csc_array) -> SeamlessMap:
-        """Make `map` the nearest on which more linear combinations of images vanish.
+    def joined(self, rows: csc_array) -> SeamlessFit:
+        """Return the nearest map on which more linear combinations of images vanish.
 
         Parameters
         ----------
@@ -109,8 +109,11 @@ class SeamlessFit:
             Coefficients of the images' components; rows that contradict others are met as well
             as can be.
         """
-        self.map = self._mended(rows)
-        return self.map
+        other = copy(self)
+        other._wanted, other._weight = self._wanted.copy(), self._weight.copy()
+        other._stiffer = self._stiffer.copy()
+        other.map = other._mended(rows)
+        return other
 
     def _mended(self, rows: csc_array | None) -> SeamlessMap:
         """Return the map with the fewest triangles turned over, making those stiffer."""
@@ -123,7 +126,7 @@ class SeamlessFit:
             h = (3 * over[:, None] + np.arange(3)).reshape(-1)
             self._wanted[h] = self._upright[h]
             self._weight[h] *= STIFFER
-            self._fit = _Fit(self._conditions, self._wanted, self._weight)
+            self._fit = _Fit(self._fit.conditions, self._wanted, self._weight)
             found = self._fit.joined(rows)
             if len(found.flipped) < len(best.flipped):
                 best = found
@@ -153,7 +156,7 @@ class _Fit:
     def __init__(self, conditions: _Conditions, wanted: FloatArray, weight: FloatArray) -> None:
         spread, closing = conditions.spread, conditions.closing
         squares = np.repeat(weight, 2)
-        self._conditions = conditions
+        self.conditions = conditions
         self._diagonal = spread.power(2).T @ squares
         free = conditions.free
         self._asked = free * (spread.T @ (squares * wanted.reshape(-1))) / self._diagonal
@@ -165,7 +168,7 @@ class _Fit:
 
     def _closed(self, images: FloatArray) -> FloatArray:
         """Return the nearest images of edges that close around every triangle."""
-        closing = self._conditions.closing
+        closing = self.conditions.closing
         forces = closing.T @ self._factor.solve(closing @ images)
         return np.asarray(images - self._inverse * forces)
 
@@ -173,13 +176,13 @@ class _Fit:
         change = images - self._asked
         asked = self._diagonal @ self._asked**2
         distance = np.sqrt(self._diagonal @ change**2 / asked)
-        return SeamlessMap((self._conditions.spread @ images).reshape(-1, 3, 2), float(distance))
+        return SeamlessMap((self.conditions.spread @ images).reshape(-1, 3, 2), float(distance))
 
     def joined(self, rows: csc_array | None) -> SeamlessMap:
         """Return the nearest map on which also `rows` of its images vanish."""
         images = self._closed(self._asked)
         if rows is not None:
-            wanted = csc_array(rows @ self._conditions.spread).toarray()
+            wanted = csc_array(rows @ self.conditions.spread).toarray()
             moves = np.array([self._closed(self._inverse * row) for row in wanted])
             force = np.linalg.lstsq(wanted @ moves.T, wanted @ images, rcond=1e-10)[0]
             images = images - force @ moves
