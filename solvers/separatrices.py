@@ -117,7 +117,7 @@ def _positions(surface: TriSurface, face: IntArray, side: IntArray, t: FloatArra
     return np.asarray(tail + t[:, None] * (head - tail))
 
 
-def field_separatrices(field: CrossField) -> Separatrices:
+def field_separatrices(field: CrossField, longest: float = LONGEST) -> Separatrices:
     """Return the separatrices of any cross-field, traced along the crosses of its triangles.
 
     Fast, and good for pictures: a curve that comes to the triangles around a singularity is taken
@@ -127,11 +127,13 @@ def field_separatrices(field: CrossField) -> Separatrices:
     ----------
     field : CrossField
         Integrable or not, aligned or not.
+    longest : float
+        Length at which a curve is given up, in square roots of the area, in the field's own sizes.
     """
     chart = Chart.of_field(field)
     nodes = singular_nodes(chart, field)
-    longest = LONGEST * np.sqrt(chart.area)
-    traces = trace(chart, nodes, starts_at(chart, nodes), chart.edge_length, longest)
+    reach = longest * np.sqrt(chart.area)
+    traces = trace(chart, nodes, starts_at(chart, nodes), chart.edge_length, reach)
     stopped = stops(traces, crossings(chart, traces.chords))
     return as_curves(field.surface, nodes, np.ones(len(nodes), dtype=bool), traces, stopped)
 

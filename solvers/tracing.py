@@ -88,12 +88,12 @@ class Chart:
 
     def ring(self, vertex: int) -> IntArray:
         """Return the halfedges that leave a vertex, counter-clockwise from the boundary."""
-        across = self.triangulation.twin[previous_halfedge(np.arange(3 * len(self.images)))]
+        twin = self.triangulation.twin
         first = int(self._first_halfedge[vertex])
-        ring, h = [first], int(across[first])
+        ring, h = [first], int(twin[previous_halfedge(np.array(first))])
         while h not in (-1, first):
             ring.append(h)
-            h = int(across[h])
+            h = int(twin[previous_halfedge(np.array(h))])
         return np.array(ring)
 
     @cached_property

@@ -11,7 +11,10 @@ from solvers.crossfield import CrossField
 from solvers.progress import Progress
 from solvers.separatrices import Separatrices, field_separatrices
 
-PAUSES = 3.0
+LONGEST = 1.5
+"""Length at which a curve is given up, in square roots of the surface's area."""
+
+PAUSES = 2.0
 """Between two tracings there are so many times the seconds that one takes."""
 
 
@@ -43,7 +46,7 @@ class LiveTracer:
 
     def _traced(self, field: CrossField) -> Traced:
         start = time.monotonic()
-        found = field_separatrices(field)
+        found = field_separatrices(field, LONGEST)
         self._ended = time.monotonic()
         self._seconds = self._ended - start
         return Traced(field, found)
