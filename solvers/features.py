@@ -72,7 +72,7 @@ class Features:
         """(k,) one halfedge of each."""
         return self.surface.triangulation.edge_halfedges[self.edges]
 
-    @property
+    @cached_property
     def ends(self) -> IntArray:
         """(k, 2) end vertices of each."""
         return self.surface.edges[self.edges]

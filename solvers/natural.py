@@ -23,6 +23,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.sparse import coo_array, csc_array, diags_array
 
+from solvers.crossfield import Convergence, CrossField
 from solvers.discretization import QUARTER
 from solvers.errors import CrossviewError
 from solvers.factorization import factorized
@@ -74,6 +75,26 @@ class CrossesStep(Progress):
         t = self.surface.triangulation
         turned = self.z[self.surface.face_edges.reshape(-1)] * np.exp(4j * t.directions)
         return np.asarray(np.angle(turned.reshape(-1, 3).sum(axis=1)) / 4)
+
+    @property
+    def field(self) -> CrossField:
+        """The crosses alone, all of one size; to be looked at."""
+        surface = self.surface
+        return CrossField(
+            surface=surface,
+            singularities=(),
+            corners={},
+            method="natural",
+            H=np.zeros(surface.n_vertices),
+            theta=self.theta,
+            defects=np.zeros(0),
+            boundary_misalignment=np.zeros(0),
+            residual=0.0,
+            max_closing_error=0.0,
+            half_log_aspect=np.zeros((surface.n_faces, 3)),
+            error_density=np.zeros(surface.n_faces),
+            convergence=Convergence(converged=False),
+        )
 
 
 def natural_singularities(

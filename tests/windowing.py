@@ -26,6 +26,7 @@ from crossview.scene import ensure_rendering
 from crossview.scene.colors import rgb
 
 PATIENCE = 60.0
+NO_KEYS = Qt.KeyboardModifier.NoModifier
 NEEDS_DISPLAY = sys.platform.startswith("linux") and not os.environ.get("DISPLAY")
 
 
@@ -77,19 +78,19 @@ class Hand:
         surface = self.state.document.surface
         return self.place(surface.position(self.state.singularities[index].point))
 
-    def press(self, place: QPointF, button=Qt.MouseButton.LeftButton) -> None:
-        self._send(QEvent.Type.MouseButtonPress, place, button, button)
+    def press(self, place: QPointF, button=Qt.MouseButton.LeftButton, keys=NO_KEYS) -> None:
+        self._send(QEvent.Type.MouseButtonPress, place, button, button, keys)
 
     def move(self, place: QPointF, held=Qt.MouseButton.NoButton) -> None:
         self._send(QEvent.Type.MouseMove, place, Qt.MouseButton.NoButton, held)
 
-    def release(self, place: QPointF, button=Qt.MouseButton.LeftButton) -> None:
-        self._send(QEvent.Type.MouseButtonRelease, place, button, Qt.MouseButton.NoButton)
+    def release(self, place: QPointF, button=Qt.MouseButton.LeftButton, keys=NO_KEYS) -> None:
+        self._send(QEvent.Type.MouseButtonRelease, place, button, Qt.MouseButton.NoButton, keys)
 
-    def click(self, place: QPointF, button=Qt.MouseButton.LeftButton) -> None:
+    def click(self, place: QPointF, button=Qt.MouseButton.LeftButton, keys=NO_KEYS) -> None:
         self.move(place)
-        self.press(place, button)
-        self.release(place, button)
+        self.press(place, button, keys)
+        self.release(place, button, keys)
 
     def drag(self, start: QPointF, end: QPointF, steps: int = 8) -> None:
         """Press, move in steps and stay held; `release` lets go."""
@@ -139,10 +140,9 @@ class Hand:
         ratio = self.canvas.devicePixelRatioF()
         return round(place.x() * ratio), round(place.y() * ratio)
 
-    def _send(self, kind, place: QPointF, button, held) -> None:
+    def _send(self, kind, place: QPointF, button, held, keys=NO_KEYS) -> None:
         spot = QPointF(self.canvas.mapToGlobal(place.toPoint()))
-        modifiers = Qt.KeyboardModifier.NoModifier
-        QApplication.sendEvent(self.canvas, QMouseEvent(kind, place, spot, button, held, modifiers))
+        QApplication.sendEvent(self.canvas, QMouseEvent(kind, place, spot, button, held, keys))
         QApplication.processEvents()
 
 

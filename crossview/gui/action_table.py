@@ -34,7 +34,8 @@ def _solvable(state: WindowState) -> bool:
 def _tool(window: MainWindow, valence: int) -> None:
     """Take the add tool for `valence`, or put it back when it is in hand."""
     state = window.workspace.state
-    window.workspace.set(tool=None if state.tool == valence else valence, trial=None)
+    tool = None if state.tool == valence else valence
+    window.workspace.set(tool=tool, trial=None, mark_tool=None)
 
 
 def _any_tool(window: MainWindow) -> None:
@@ -180,9 +181,20 @@ ACTIONS: tuple[ActionSpec, ...] = (
         enabled=_open,
     ),
     ActionSpec(
+        "mark-edges", "Mark edges", "Surface", lambda w: w.workspace.marks.take_tool(), ("M",),
+        tip="A click marks an edge for the crosses to follow, or no longer; with Shift the "
+        "shortest path from the last click",
+        enabled=_open, checked=lambda s: s.mark_tool is not None, separated=True,
+    ),
+    ActionSpec(
+        "clear-features", "Remove all features", "Surface", lambda w: w.workspace.marks.clear(),
+        tip="Mark no edge any more",
+        enabled=lambda s: s.features is not None and len(s.features) > 0,
+    ),
+    ActionSpec(
         "select", "Select", "Singularities", lambda w: w.escape(),
         ("Esc",), "select", "Select and drag singularities; elsewhere turn the view",
-        checked=lambda s: s.tool is None,
+        checked=lambda s: s.tool is None and s.mark_tool is None,
     ),
     *_tools(),
     ActionSpec(
@@ -228,6 +240,12 @@ ACTIONS: tuple[ActionSpec, ...] = (
         enabled=_movable, separated=True,
     ),
     *_naturals(),
+    ActionSpec(
+        "along-curvature", "Along curvature", "Singularities",
+        lambda w: w.workspace.set(along_curvature=not w.state.along_curvature),
+        tip="Draw the crosses of natural singularities towards the directions of curvature",
+        checked=lambda s: s.along_curvature, separated=True, submenu="Natural singularities",
+    ),
     ActionSpec(
         "solve", "Solve", "Solve", lambda w: w.workspace.solving.solve(), ("F5",), "solve",
         "Solve again with refinement at the singularities", _solvable,

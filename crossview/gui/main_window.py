@@ -129,7 +129,7 @@ class MainWindow(QMainWindow):
     def escape(self) -> None:
         """Put a dragged singularity back, else take the select tool."""
         if not self.viewport.mouse.let_go():
-            self.workspace.set(tool=None, trial=None)
+            self.workspace.set(tool=None, trial=None, mark_tool=None)
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         """Take files."""

@@ -44,6 +44,7 @@ class Mouse(QObject):
         self._pressed_at = QPointF()
         self._moved = False
         self._wheel = 0
+        self._onwards = False  # whether Shift is held
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Take an event, or leave it to the camera."""
@@ -56,6 +57,7 @@ class Mouse(QObject):
         if isinstance(event, QWheelEvent):
             return self._wheeled(event)
         if isinstance(event, QMouseEvent):
+            self._onwards = bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier)
             return self._mouse(kind, event)
         return False
 
@@ -117,7 +119,10 @@ class Mouse(QObject):
 
     def _click(self, place: QPointF) -> None:
         pick, state = self._viewport.pick(place), self._workspace.state
-        if pick is not None and state.tool is not None:
+        if state.mark_tool is not None:
+            if pick is not None:
+                self._workspace.marks.click(pick.point, self._onwards)
+        elif pick is not None and state.tool is not None:
             self._workspace.add(pick.point, state.tool)
         else:
             self._workspace.set(selected=None)
@@ -141,6 +146,8 @@ class Mouse(QObject):
         self._viewport.hovered.emit(pick)
         over = None if place is None else self._viewport.singularity_at(place)
         self._viewport.point_out(over)
+        if self._workspace.state.mark_tool is not None:
+            self._workspace.marks.hover(None if pick is None else pick.point, self._onwards)
         if self._workspace.state.tool is not None:
             point: SurfacePoint | None = None if pick is None or over is not None else pick.point
             self._workspace.trials.preview(point)

@@ -39,9 +39,10 @@ class Moves:
 
     def place_natural(self, method: str) -> None:
         """Replace the singularities by those of a smooth cross-field."""
-        document = self._store.state.document
-        if document is not None:
-            self._run(partial(place_natural, document, method))
+        state = self._store.state
+        if state.document is not None:
+            alignment = "curvature" if state.along_curvature else "smoothness"
+            self._run(partial(place_natural, state.document, method, alignment))
 
     def _run(self, job: Callable[[], Generator[Progress, None, Command]]) -> None:
         def failed(error: Exception) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from crossview.gui.figure_settings import FigureSettings
 from crossview.gui.ranges import NO_RANGES, Ranges
 from crossview.gui.state import WindowState
 from crossview.scene import Elements, LayerSettings, Marker, SceneView, field_view
+from crossview.scene.field import feature_lines
 from crossview.scene.meshes import curves_of, patches_of, quads_of, t_junctions_of
 from crossview.scene.view import Background
 from crossview.session.document import Document
@@ -58,7 +60,7 @@ def scene_view(state: WindowState, held: Ranges = NO_RANGES) -> SceneView:
         if state.comparing and start is not None:
             view = replace(view, error_density=start.error_density)
     return replace(
-        view,
+        _with_features(view, state),
         singularities=markers,
         preview=_preview(state, surface),
         loop=_loop(state),
@@ -83,6 +85,16 @@ def _with_meshes(view: SceneView, state: WindowState) -> SceneView:
     )
 
 
+def _with_features(view: SceneView, state: WindowState) -> SceneView:
+    """Return the view with the feature edges."""
+    features = state.features
+    if features is None:
+        return view
+    field = None if state.feature_trial is not None else state.field_along_features
+    lines: Mapping[str, Any] = feature_lines(features, field, state.tolerance)
+    return replace(view, **lines)
+
+
 def poor_faces(surface: TriSurface) -> IntArray:
     """Return the numbers of the triangles that are poor for finite elements."""
     return np.flatnonzero(surface.triangle_quality < POOR_QUALITY)
@@ -93,7 +105,7 @@ def figure_view(
 ) -> SceneView:
     """Return what to draw in a figure: what is shown, without what only helps to edit."""
     plain = replace(state, trial=None, selected=None, condition=None, poor=False)
-    view = scene_view(plain, held)
+    view = scene_view(replace(plain, mark_tool=None), held)
     return replace(view, background="transparent") if settings.transparent else view
 
 
@@ -105,6 +117,8 @@ def _preview(state: WindowState, surface: TriSurface) -> Marker | None:
 
 
 def _loop(state: WindowState) -> IntArray | None:
+    if state.mark_tool is not None:
+        return state.mark_tool.path
     if state.base is None or state.condition is None:
         return None
     return state.base.solver.holonomy.conditions[state.condition].path

@@ -115,7 +115,8 @@ class Solving:
         """Show the present document's own field again, after a job that has shown others."""
         state = self._store.state
         if state.solution is not None and state.solved:
-            self._store.set(field=state.solution.field, cut_graph=None)
+            base = state.base or LiveBase.from_solution(state.solution)
+            self._store.set(field=state.solution.field, base=base, cut_graph=None)
             self.pursue()
         else:
             self.follow()
@@ -132,6 +133,9 @@ class Solving:
             changes["moving"] = progress
             if progress.field is not None:
                 changes |= {"field": progress.field, "cut_graph": None}
+                base = self._store.state.base
+                if base is not None and base.surface is not progress.field.surface:
+                    changes["base"] = None  # the field is of the surface before refinement
         self._store.set(**changes)
 
     def _show(self, solved: Solved) -> None:

@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 from crossview.case import METHODS
+from crossview.marking import Marking
 from crossview.pipeline import Solution
 from crossview.problem import Problem
 from crossview.scene import Elements, LayerSettings, default_layers
@@ -17,6 +18,7 @@ from crossview.session.meshes import NO_MESHES, Meshes
 from crossview.session.methods import Iterate
 from crossview.session.moving import Moving
 from solvers.crossfield import CrossField
+from solvers.features import Features
 from solvers.points import SurfacePoint
 from solvers.progress import Progress
 from solvers.separatrices import Separatrices
@@ -80,6 +82,37 @@ class Message:
 
 
 @dataclass(frozen=True, eq=False)
+class MarkTool:
+    """The tool that marks feature edges.
+
+    Parameters
+    ----------
+    last : int or None
+        Vertex of the document's surface at the last click.
+    path : (k,) int array or None
+        Vertices along the edges that a click would mark, to be pointed out.
+    """
+
+    last: int | None = None
+    path: IntArray | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class FeatureTrial:
+    """Features that are looked at and not yet taken.
+
+    Parameters
+    ----------
+    marking : Marking
+    features : Features
+        On the document's surface.
+    """
+
+    marking: Marking
+    features: Features
+
+
+@dataclass(frozen=True, eq=False)
 class Trial:
     """Something that would happen: a singularity under the mouse, dragged or not yet placed.
 
@@ -134,6 +167,11 @@ class WindowState:
         Valence that the add tool carries; None: the select tool.
     any_valence : int
         What the tool "any valence" carries.
+    mark_tool : MarkTool or None
+        In hand while clicks mark feature edges; `tool` is None then.
+    feature_trial : FeatureTrial or None
+    along_curvature : bool
+        Whether natural singularities come from crosses that are drawn to principal directions.
     selected : int or None
         Number of the selected singularity.
     condition : int or None
@@ -162,6 +200,9 @@ class WindowState:
     meshes: Meshes = NO_MESHES
     tool: int | None = None
     any_valence: int = 7
+    mark_tool: MarkTool | None = None
+    feature_trial: FeatureTrial | None = None
+    along_curvature: bool = False
     selected: int | None = None
     condition: int | None = None
     poor: bool = False
@@ -211,6 +252,32 @@ class WindowState:
         """The separatrices to draw; in a drag they may be a moment behind the field."""
         dragged = self.trial is not None and self.trial.drag and self.field is not None
         return self.meshes.separatrices if dragged else self.made.separatrices
+
+    @property
+    def features(self) -> Features | None:
+        """The feature edges to show, on `shown_surface` or, the same vertices, the document's."""
+        if self.feature_trial is not None:
+            return self.feature_trial.features
+        if self.document is None:
+            return None
+        own = self.document.problem.features
+        return own if self.field_along_features is None else self.known_features
+
+    @property
+    def field_along_features(self) -> CrossField | None:
+        """The field shown, where it tells by how much it misses the present features."""
+        features, field = self.known_features, self.field
+        if features is None or field is None or field.surface is not features.surface:
+            return None
+        return field if len(field.feature_misalignment) == len(features.curves) else None
+
+    @property
+    def known_features(self) -> Features | None:
+        """The features that `base` knows; None where they are no longer those of the document."""
+        if self.document is None or self.base is None or self.base.marking is None:
+            return None
+        same = self.base.marking == self.document.problem.marking
+        return self.base.solver.discretization.features if same else None
 
     @property
     def budget(self) -> IndexBudget | None:

@@ -167,7 +167,8 @@ class Viewport(QWidget):
         """Show by the cursor that something can be taken hold of."""
         hand = Qt.CursorShape.PointingHandCursor
         tool = self._workspace.state.tool
-        plain = Qt.CursorShape.ArrowCursor if tool is None else Qt.CursorShape.CrossCursor
+        idle = tool is None and self._workspace.state.mark_tool is None
+        plain = Qt.CursorShape.ArrowCursor if idle else Qt.CursorShape.CrossCursor
         self.plotter.setCursor(plain if singularity is None else hand)
 
     def ask_menu(self, place: QPointF, global_place: QPoint) -> None:

@@ -8,6 +8,7 @@ from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 
+from crossview.gui.marking import Marks
 from crossview.gui.meshing import Meshing
 from crossview.gui.moves import Moves
 from crossview.gui.solving import Solving
@@ -46,6 +47,7 @@ class Workspace(Store):
         self.solving = Solving(self)
         self.trials = Trials(self, self.solving, self.do)
         self.moves = Moves(self, self.solving, self.do)
+        self.marks = Marks(self, self.do)
         self.meshing = Meshing(self, self.solving, self.do, self.moves.make_valid)
 
     def close(self) -> None:
@@ -177,6 +179,7 @@ class Workspace(Store):
         changes: dict[str, Any] = {
             "document": document,
             "trial": None,
+            "feature_trial": None,
             "undo_name": self._history.undo_name,
             "redo_name": self._history.redo_name,
         }
@@ -187,7 +190,7 @@ class Workspace(Store):
         before = None if state.document is None else state.document.surface
         if document is None or document.surface is not before:
             gone = ("base", "solution", "field", "start", "cut_graph", "selected", "condition")
-            changes |= dict.fromkeys(gone)
+            changes |= dict.fromkeys((*gone, "mark_tool"))
         elif not document.budget.satisfied:
             changes |= {"solution": None, "field": None, "start": None, "cut_graph": None}
         self.clear_message("edit")

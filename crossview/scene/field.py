@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -44,10 +46,13 @@ def field_view(field: CrossField, cut_graph: IntArray | None = None, **others: A
     )
 
 
+@lru_cache(maxsize=4)
 def feature_lines(
     features: Features, field: CrossField | None, tolerance_degrees: float
-) -> dict[str, IntArray]:
+) -> Mapping[str, IntArray]:
     """Return the feature edges for a `SceneView`: all, and those that the crosses miss.
+
+    The same arrays for the same features and field, for a scene tells arrays apart by identity.
 
     Parameters
     ----------

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Protocol
 
+from crossview.marking import Marking
 from crossview.session.document import Document
 from solvers.points import SurfacePoint
 from solvers.singularities import Singularity
@@ -158,6 +159,18 @@ class ChooseMethod:
     def apply(self, document: Document) -> Document:
         """Return the document with the method chosen."""
         return replace(document, problem=replace(document.problem, method=self.method))
+
+
+@dataclass(frozen=True)
+class MarkFeatures:
+    """Choose other feature edges."""
+
+    marking: Marking
+    name: str = "mark features"
+
+    def apply(self, document: Document) -> Document:
+        """Return the document with these features."""
+        return replace(document, problem=replace(document.problem, marking=self.marking))
 
 
 def next_valence(valence: int, step: int) -> int:

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from crossview.marking import Marking
 from crossview.pipeline import Solution
 from crossview.problem import Problem
 from crossview.session.document import Document
@@ -38,6 +39,8 @@ class LiveBase:
         On `surface`.
     lift : callable
         Takes a point of `surface` to the same point of `document_surface`.
+    marking : Marking
+        The features that `solver` knows.
     known : dict of SurfacePoint to SurfacePoint
         Where points of `document_surface` are on `surface`; grows as points are located.
     """
@@ -45,6 +48,7 @@ class LiveBase:
     document_surface: TriSurface
     solver: IsotropicSolver
     lift: Callable[[SurfacePoint], SurfacePoint]
+    marking: Marking = field(default_factory=Marking)
     known: dict[SurfacePoint, SurfacePoint] = field(default_factory=dict)
 
     @classmethod
@@ -53,14 +57,16 @@ class LiveBase:
         given, placed = solution.problem.singularities, solution.singularities
         known = {s.point: at.point for s, at in zip(given, placed, strict=True)}
         problem = solution.problem
-        return cls(problem.surface, solution.solver, solution.refinement.lift, known)
+        lift = solution.refinement.lift
+        return cls(problem.surface, solution.solver, lift, problem.marking, known)
 
     @classmethod
     def from_stage(cls, stage: Stage, problem: Problem) -> LiveBase:
         """Keep the factor that `problem`, not isotropic, is being solved with."""
         given, placed = problem.singularities, stage.placed(problem)
         known = {s.point: at.point for s, at in zip(given, placed, strict=True)}
-        return cls(problem.surface, stage.solver(flips=False), stage.refinement.lift, known)
+        lift = stage.refinement.lift
+        return cls(problem.surface, stage.solver(flips=False), lift, problem.marking, known)
 
     @property
     def surface(self) -> TriSurface:
@@ -84,7 +90,7 @@ def prepare(document: Document) -> Generator[Progress, None, LiveBase]:
     solver = IsotropicSolver(document.surface, document.corners, features=features)
     yield Progress("preparing the holonomy conditions", 0.6)
     solver.holonomy.defects(())
-    return LiveBase(document.surface, solver, lambda point: point)
+    return LiveBase(document.surface, solver, lambda point: point, document.problem.marking)
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,7 +12,7 @@ from crossview.session.document import Document
 from crossview.session.live import LiveBase, with_directions
 from solvers.crossfield import CrossField
 from solvers.errors import CrossviewError
-from solvers.natural import natural_singularities
+from solvers.natural import ALIGNMENTS, CrossesStep, natural_singularities
 from solvers.progress import Progress, relayed
 from solvers.singularities import Singularity
 from solvers.triangulation import FloatArray
@@ -41,14 +41,15 @@ class Moving(Progress):
         As in `Progress`.
     singularities : tuple of Singularity
         Where they are, on the document's surface.
-    defects : (c,) float array
-        Their holonomy defects, radians.
+    defects : (c,) float array or None
+        Their holonomy defects, radians; None before there are any singularities.
     field : CrossField or None
-        Theirs, on the kept factor; None where there is none.
+        Theirs, on the kept factor, or that from which they will come, on the document's surface;
+        None where there is none.
     """
 
     singularities: tuple[Singularity, ...]
-    defects: FloatArray
+    defects: FloatArray | None
     field: CrossField | None
 
 
@@ -77,9 +78,30 @@ def move_to_validity(
     return ReplaceSingularities(moved.singularities, "make valid")
 
 
-def place_natural(document: Document, method: str) -> Generator[Progress, None, Command]:
-    """Find the singularities of a smooth cross-field, with automatic corners as it has."""
-    found = yield from _paced(natural_singularities(document.surface, method))
+def place_natural(
+    document: Document, method: str, alignment: str = ALIGNMENTS[0]
+) -> Generator[Progress, None, Command]:
+    """Find the singularities of a smooth cross-field, with automatic corners as it has.
+
+    Yields a `Moving` without singularities for each field on its way.
+
+    Parameters
+    ----------
+    document : Document
+    method, alignment : str
+        As of `natural_singularities`.
+    """
+    computation = natural_singularities(
+        document.surface, method, alignment=alignment, features=document.problem.features
+    )
+
+    def show(step: Progress) -> Progress:
+        if not isinstance(step, CrossesStep):
+            return step
+        field = with_directions(step.field)
+        return Moving(step.stage, step.fraction, (), None, field)
+
+    found = yield from relayed(_paced(computation), show)
     name = f"natural singularities ({NATURAL_LABELS[method]})"
     return ReplaceSingularities(found, name, automatic_corners=True)
 

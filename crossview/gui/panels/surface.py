@@ -6,6 +6,7 @@ from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtGui import QEnterEvent
 from PySide6.QtWidgets import QFormLayout, QFrame, QLabel, QScrollArea, QVBoxLayout, QWidget
 
+from crossview.gui.panels.features import FeaturesBox
 from crossview.gui.panels.texts import count
 from crossview.gui.scene_view import poor_faces
 from crossview.gui.state import WindowState
@@ -43,6 +44,7 @@ class SurfacePanel(QScrollArea):
         self.counts, self.topology, self.quality = QLabel(), QLabel(), QLabel()
         self.problems = Hovered()
         self.problems.hovered.connect(lambda inside: workspace.set(poor=inside))
+        self.features = FeaturesBox(workspace)
         self.notes = QLabel()
         self.notes.setWordWrap(True)
         form = QFormLayout()
@@ -70,6 +72,8 @@ class SurfacePanel(QScrollArea):
         layout.addWidget(self.name)
         layout.addLayout(form)
         layout.addWidget(self.notes)
+        layout.addWidget(_faint("Features"))
+        layout.addWidget(self.features)
         layout.addStretch()
         self._form = form
         self._show(None)
@@ -78,6 +82,7 @@ class SurfacePanel(QScrollArea):
         """Follow the window's state."""
         if old.document is not new.document:
             self._show(new.document)
+        self.features.show_state(old, new)
 
     def _show(self, document: Document | None) -> None:
         for row in range(self._form.rowCount()):

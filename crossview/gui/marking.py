@@ -1,0 +1,115 @@
+"""Marks feature edges: by an angle that is tried first, and by clicks on edges."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from crossview.gui.state import FeatureTrial, MarkTool
+from crossview.gui.store import Store
+from crossview.marking import Marking
+from crossview.session.commands import Command, MarkFeatures
+from crossview.session.picking import EdgePicker
+from solvers.points import SurfacePoint
+from solvers.triangulation import IntArray
+
+
+class Marks:
+    """Tries features out, and makes them one step of the history each.
+
+    Parameters
+    ----------
+    store : Store
+    do : callable
+        Makes a command one step of the history.
+    """
+
+    def __init__(self, store: Store, do: Callable[[Command], None]) -> None:
+        self._store = store
+        self._do = do
+        self._picker: EdgePicker | None = None
+
+    def take_tool(self) -> None:
+        """Take the tool that marks edges, or put it back when it is in hand."""
+        taken = None if self._store.state.mark_tool is not None else MarkTool()
+        self._store.set(mark_tool=taken, tool=None, trial=None)
+
+    def try_angle(self, degrees: float | None) -> None:
+        """Show which edges are sharper than an angle, and take none yet."""
+        document = self._store.state.document
+        if document is not None:
+            marking = replace(document.problem.marking, dihedral_degrees=degrees)
+            self._store.set(feature_trial=FeatureTrial(marking, marking.on(document.surface)))
+
+    def accept(self) -> None:
+        """Take the features that are tried."""
+        trial = self._store.state.feature_trial
+        document = self._store.state.document
+        self._store.set(feature_trial=None)
+        if trial is None or document is None or trial.marking == document.problem.marking:
+            return
+        degrees = trial.marking.dihedral_degrees
+        name = "forget sharp edges" if degrees is None else f"mark edges over {degrees:g} degrees"
+        self._do(MarkFeatures(trial.marking, name))
+
+    def clear(self) -> None:
+        """Take all marks away."""
+        self._store.set(feature_trial=None)
+        self._do(MarkFeatures(Marking(), "remove all features"))
+
+    def hover(self, point: SurfacePoint | None, onwards: bool) -> None:
+        """Show the edges that a click at a point of the shown surface would mark."""
+        tool = self._store.state.mark_tool
+        if tool is None:
+            return
+        edges = None if point is None else self._edges(point, onwards)
+        path = None
+        if edges is not None and len(edges):
+            path = self._edge_picker().vertices_along(self._start(onwards), edges)
+        if path is not None or tool.path is not None:
+            self._store.set(mark_tool=replace(tool, path=path))
+
+    def click(self, point: SurfacePoint, onwards: bool) -> None:
+        """Mark the edge at a point of the shown surface, or no longer.
+
+        Parameters
+        ----------
+        point : SurfacePoint
+        onwards : bool
+            Mark the shortest path from the last click instead.
+        """
+        document = self._store.state.document
+        if document is None:
+            return
+        edges = self._edges(point, onwards)
+        last = self._edge_picker().vertex_at(self._store.state.lifted(point))
+        self._store.set(mark_tool=MarkTool(last))
+        inner = edges[document.surface.edge_faces[edges, 1] >= 0]
+        if not len(inner):
+            return
+        marking = document.problem.marking.toggled(document.surface, inner)
+        grown = len(marking.on(document.surface)) > len(document.problem.features)
+        verb = "mark" if grown else "unmark"
+        what = "an edge" if len(inner) == 1 else f"{len(inner)} edges"
+        self._do(MarkFeatures(marking, f"{verb} {what}"))
+
+    def _start(self, onwards: bool) -> int | None:
+        tool = self._store.state.mark_tool
+        return tool.last if onwards and tool is not None else None
+
+    def _edges(self, point: SurfacePoint, onwards: bool) -> IntArray:
+        picker, place = self._edge_picker(), self._store.state.lifted(point)
+        start = self._start(onwards)
+        if start is None:
+            return np.array([picker.edge_at(place)])
+        return picker.path(start, place)
+
+    def _edge_picker(self) -> EdgePicker:
+        document = self._store.state.document
+        if document is None:
+            raise RuntimeError("there is no surface to mark")
+        if self._picker is None or self._picker.surface is not document.surface:
+            self._picker = EdgePicker(document.surface)
+        return self._picker

@@ -1,0 +1,112 @@
+"""Features in the Surface panel: sharp edges by angle, edges marked by hand."""
+
+from __future__ import annotations
+
+import numpy as np
+from PySide6.QtCore import QLocale, QTimer
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QDoubleSpinBox,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from crossview.gui.panels.texts import count, degrees
+from crossview.gui.state import WindowState
+from crossview.gui.workspace import Workspace
+
+USUAL_ANGLE = 40.0
+STILL_MS = 600
+"""How long the angle must stay before it is taken."""
+
+
+class FeaturesBox(QWidget):
+    """An angle that is shown as it changes and taken when it rests, and buttons."""
+
+    def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._workspace = workspace
+        self.sharp = QCheckBox("Edges over")
+        self.sharp.setToolTip("Crosses follow edges over which the surface bends by more than this")
+        self.angle = QDoubleSpinBox()
+        self.angle.setLocale(QLocale.c())
+        self.angle.setRange(1.0, 180.0)
+        self.angle.setDecimals(0)
+        self.angle.setSuffix("\u00b0")
+        self.angle.setValue(USUAL_ANGLE)
+        self.mark = QPushButton("Mark edges")
+        self.mark.setCheckable(True)
+        self.mark.setToolTip(
+            "A click marks an edge or no longer; with Shift the path from the last click"
+        )
+        self.clear = QPushButton("Clear")
+        self.clear.setToolTip("No features any more")
+        self.found = QLabel()
+        self.found.setWordWrap(True)
+        self._still = QTimer(self)
+        self._still.setSingleShot(True)
+        self._still.setInterval(STILL_MS)
+        self._still.timeout.connect(workspace.marks.accept)
+        self.sharp.toggled.connect(self._toggled)
+        self.angle.valueChanged.connect(self._try)
+        self.mark.clicked.connect(lambda: workspace.marks.take_tool())
+        self.clear.clicked.connect(lambda: workspace.marks.clear())
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(4)
+        for row in ((self.sharp, self.angle), (self.mark, self.clear)):
+            line = QHBoxLayout()
+            line.setSpacing(8)
+            for widget in row:
+                line.addWidget(widget)
+            line.addStretch()
+            layout.addLayout(line)
+        layout.addWidget(self.found)
+
+    def show_state(self, old: WindowState, new: WindowState) -> None:
+        """Follow the window's state."""
+        self.mark.setChecked(new.mark_tool is not None)
+        seen = ("document", "feature_trial", "field", "base", "mark_tool")
+        if all(getattr(old, name) is getattr(new, name) for name in seen):
+            return
+        features = new.features
+        self.clear.setEnabled(features is not None and len(features) > 0)
+        self.found.setText(_found(new))
+        if new.document is None or new.feature_trial is not None:
+            return
+        if old.document is not new.document:
+            self._still.stop()
+            chosen = new.document.problem.marking.dihedral_degrees
+            for widget in (self.sharp, self.angle):
+                widget.blockSignals(True)
+            self.sharp.setChecked(chosen is not None)
+            if chosen is not None:
+                self.angle.setValue(chosen)
+            for widget in (self.sharp, self.angle):
+                widget.blockSignals(False)
+
+    def _toggled(self, on: bool) -> None:
+        self._still.stop()
+        self._workspace.marks.try_angle(self.angle.value() if on else None)
+        self._workspace.marks.accept()
+
+    def _try(self, angle: float) -> None:
+        if self.sharp.isChecked():
+            self._workspace.marks.try_angle(angle)
+            self._still.start()
+
+
+def _found(state: WindowState) -> str:
+    features = state.features
+    if features is None or not len(features):
+        hint = "click edges to mark them; Shift: the path from the last click"
+        return hint.capitalize() if state.mark_tool is not None else ""
+    text = f"{count(len(features), 'edge')} in {count(len(features.curves), 'curve')}"
+    field = state.field_along_features
+    if state.feature_trial is None and field is not None:
+        off = float(np.degrees(np.abs(field.feature_misalignment).max(initial=0.0)))
+        text += f", off by up to {degrees(off)}" if off > state.tolerance else ", followed"
+    return text
