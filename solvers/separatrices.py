@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from solvers.arrangement import Stops, stops
 from solvers.crossfield import CrossField
 from solvers.crossings import crossings
 from solvers.surface import TriSurface
-from solvers.tracing import Chart, Node, Traces, node_at, starts_at, trace
+from solvers.tracing import AXES, BORDER, LENGTH, Chart, Node, Traces, node_at, starts_at, trace
 from solvers.triangulation import BoolArray, FloatArray, IntArray
 
 SINGULARITY, BOUNDARY, T_JUNCTION, OPEN = range(4)
@@ -121,7 +121,7 @@ def field_separatrices(field: CrossField, longest: float = LONGEST) -> Separatri
     """Return the separatrices of any cross-field, traced along the crosses of its triangles.
 
     Fast, and good for pictures: a curve that comes to the triangles around a singularity is taken
-    to meet it.
+    to meet it, and one that comes to the boundary along it, not across, to wind for ever.
 
     Parameters
     ----------
@@ -134,8 +134,17 @@ def field_separatrices(field: CrossField, longest: float = LONGEST) -> Separatri
     nodes = singular_nodes(chart, field)
     reach = longest * np.sqrt(chart.area)
     traces = trace(chart, nodes, starts_at(chart, nodes), chart.edge_length, reach)
+    traces = replace(traces, ends=np.where(_along_boundary(traces), LENGTH, traces.ends))
     stopped = stops(traces, crossings(chart, traces.chords))
     return as_curves(field.surface, nodes, np.ones(len(nodes), dtype=bool), traces, stopped)
+
+
+def _along_boundary(traces: Traces) -> BoolArray:
+    """Return which traces (k,) end at the boundary at less than half a right angle to it."""
+    last = traces.chords[traces.offsets[1:] - 1]
+    side = traces.chart.images[last.face, last.side_out]
+    slope = np.abs((AXES[last.axis] / side).real) > np.sqrt(0.5) / np.abs(side)
+    return (traces.ends == BORDER) & ~last.corner_out & slope
 
 
 def singular_nodes(chart: Chart, field: CrossField) -> list[Node]:
