@@ -58,7 +58,7 @@ class Guidance:
         """Return the lines to draw; never yields, so that it is never cut short.
 
         Of each condition that is open the line on which it closes, of the others the one on which
-        they stay closed. Of a single condition, or the one pointed at, also where it stays as it is.
+        they stay closed. Of a single condition, or the one pointed at, also where it stays as is.
 
         Parameters
         ----------

@@ -14,6 +14,7 @@ from crossview.session.commands import (
     RemoveSingularities,
 )
 from crossview.session.document import Document
+from crossview.session.pairing import distribute
 from solvers.placing import far_points
 from solvers.progress import Progress
 from solvers.singularities import Singularity
@@ -47,6 +48,8 @@ def mendings(document: Document) -> tuple[Mending, ...]:
     offers = [_offer_added(document, valence, 1)]
     if 1 < abs(missing) <= MOST_ADDED:
         offers.append(_offer_added(document, valence, abs(missing)))
+    if abs(missing) <= MOST_ADDED:
+        offers.append(Mending("Distribute the missing index", lambda: distribute(document)))
     changed = _last_changeable(document, missing)
     return (*offers, changed) if changed is not None else tuple(offers)
 

@@ -17,8 +17,9 @@ def document(surface: dict, *singularities: tuple[list[float], int]) -> Document
 
 def test_a_bare_sphere_is_offered_one_or_all_eight() -> None:
     sphere = document({"builtin": "sphere"})
-    one, all_eight = mendings(sphere)
+    one, all_eight, distributed = mendings(sphere)
     assert (one.label, all_eight.label) == ("Add one valence 3", "Add all 8 valence 3")
+    assert distributed.label == "Distribute the missing index"
     mended = run(all_eight.make()).apply(sphere)
     assert mended.budget.satisfied
     positions = mended.surface.positions([s.point for s in mended.singularities])

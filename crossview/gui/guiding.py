@@ -1,0 +1,89 @@
+"""Keeps the validity guide in step with what is under the mouse, beside all other work."""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+from typing import Any
+
+from crossview.gui.background import Background
+from crossview.gui.state import WindowState
+from crossview.gui.store import Store
+from crossview.scene import GuideLine
+from crossview.scene.colors import condition_color
+from crossview.session.guiding import Guidance, GuideCurve
+from crossview.session.live import LiveEdit
+
+
+class Guiding:
+    """Asks for guide lines when their subject changes; the latest request wins.
+
+    The lines do not depend on where the subject is dragged, so a drag asks once.
+    """
+
+    def __init__(self, store: Store) -> None:
+        self._store = store
+        self._background = Background(store)
+        self._subject: tuple[Any, ...] | None = None
+
+    @property
+    def busy(self) -> bool:
+        """Whether an answer is still awaited."""
+        return self._background.busy
+
+    def follow(self) -> None:
+        """Bring the lines in line with the state."""
+        state = self._store.state
+        subject = _subject(state)
+        if subject == self._subject:
+            return
+        self._subject = subject
+        if subject is None:
+            self._background.forget()
+            self._store.set(guide=())
+            return
+        _, _, moving, _, condition = subject
+        job = partial(_guidance(state, moving).curves, math.radians(state.tolerance), condition)
+        self._background.submit(job, self._show, lambda error: self._store.fail(error, "guide"))
+
+    def close(self) -> None:
+        """End the background thread."""
+        self._background.close()
+
+    def _show(self, curves: tuple[GuideCurve, ...]) -> None:
+        lines = (GuideLine(c.ends, condition_color(c.condition), c.strong) for c in curves)
+        self._store.set(guide=tuple(lines))
+
+
+def _subject(state: WindowState) -> tuple[Any, ...] | None:
+    """Return what the lines depend on: base, document, number, valence, condition."""
+    document, base, budget = state.document, state.base, state.budget
+    wanted = state.layers["guide"].visible and state.moving is None
+    if document is None or base is None or budget is None or not wanted:
+        return None
+    moving = _moving(state)
+    if moving is None or not budget.satisfied or not base.solver.holonomy.conditions:
+        return None
+    if state.trial is not None and not state.trial.drag:
+        valence = state.trial.singularities[moving].valence
+    else:
+        valence = document.singularities[moving].valence
+    return base, document, moving, valence, state.followed
+
+
+def _moving(state: WindowState) -> int | None:
+    """Return the number of what is dragged, previewed or hovered; of a row's, what is selected."""
+    if state.trial is not None:
+        return None if state.trial.edit is None else state.trial.index
+    if state.hovered is not None:
+        return state.hovered
+    return None if state.condition is None else state.selected
+
+
+def _guidance(state: WindowState, moving: int) -> Guidance:
+    trial, document, base = state.trial, state.document, state.base
+    if trial is not None and trial.edit is not None and not trial.drag:
+        return Guidance(trial.edit, moving, placed=False)
+    if document is None or base is None:
+        raise RuntimeError("there is no subject without a document and a base")
+    return Guidance(LiveEdit.start(document, base), moving)

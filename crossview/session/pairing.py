@@ -1,0 +1,61 @@
+"""Tools that keep the index sum, as commands."""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+
+import numpy as np
+
+from crossview.session.commands import AddSingularities, Command, ReplaceSingularities
+from crossview.session.document import Document
+from solvers.completion import missing_singularities
+from solvers.isotropic import IsotropicSolver
+from solvers.pairs import merged, pair_at, split
+from solvers.placing import far_points
+from solvers.points import SurfacePoint
+from solvers.progress import Progress
+from solvers.symmetry import mirrored, turned
+
+
+def add_pair(document: Document, point: SurfacePoint) -> Command:
+    """Put a valence 3 and a valence 5 around a point of the document's surface."""
+    pair = pair_at(document.surface, document.singularities, point)
+    return ReplaceSingularities((*document.singularities, *pair), "add a pair of 3 and 5")
+
+
+def add_pair_somewhere(document: Document) -> Generator[Progress, None, Command]:
+    """Put a pair where it is farthest from everything."""
+    (point,) = yield from far_points(document.surface, document.singularities, 1)
+    return add_pair(document, point)
+
+
+def merge(document: Document, one: int, other: int) -> Command:
+    """Make one singularity of two."""
+    made = merged(document.surface, document.singularities, one, other)
+    first, second = sorted((one, other))
+    return ReplaceSingularities(made, f"merge singularities {first + 1} and {second + 1}")
+
+
+def split_one(document: Document, which: int) -> Command:
+    """Make two singularities of one."""
+    made = split(document.surface, document.singularities, which)
+    return ReplaceSingularities(made, f"split singularity {which + 1}")
+
+
+def mirror(document: Document, axis: int) -> Command:
+    """Mirror the configuration across x (0), y or z."""
+    made = mirrored(document.surface, document.singularities, axis)
+    return ReplaceSingularities(made, f"mirror across {'xyz'[axis]}")
+
+
+def rotate(document: Document, axis: int) -> Command:
+    """Turn the configuration by 90 degrees about x (0), y or z."""
+    made = turned(document.surface, document.singularities, axis, np.pi / 2)
+    return ReplaceSingularities(made, f"rotate about {'xyz'[axis]}")
+
+
+def distribute(document: Document) -> Generator[Progress, None, Command]:
+    """Add what the index budget lacks, where it evens out the sizes most."""
+    yield Progress("preparing the surface", 0.1)
+    solver = IsotropicSolver(document.surface, document.corners)
+    return AddSingularities((yield from missing_singularities(solver, document.singularities)))
