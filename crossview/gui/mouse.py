@@ -89,7 +89,8 @@ class Mouse(QObject):
         if self._grip is _Grip.DRAG:
             pick = self._viewport.pick(event.position())
             if pick is not None:
-                self._workspace.trials.drag_to(pick.point)
+                keep = bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier)
+                self._workspace.trials.drag_to(pick.point, keep)
             return True
         if not event.buttons():
             self._hover(event.position())
@@ -109,7 +110,8 @@ class Mouse(QObject):
         if grip is _Grip.DRAG:
             self._workspace.trials.drop()
         elif grip is _Grip.SINGULARITY:
-            self._workspace.set(selected=self._held)
+            both = bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier)
+            self._workspace.select(self._held, both)
         elif not self._moved:
             self._viewport.pass_on(event)
             self._click(event.position())
@@ -125,7 +127,7 @@ class Mouse(QObject):
         elif pick is not None and state.tool is not None:
             self._workspace.add(pick.point, state.tool)
         else:
-            self._workspace.set(selected=None)
+            self._workspace.select(None)
 
     def _wheeled(self, event: QWheelEvent) -> bool:
         index = self._viewport.singularity_at(event.position())
@@ -143,9 +145,13 @@ class Mouse(QObject):
     def _hover(self, place: QPointF | None) -> None:
         """Read out what is under the mouse and show what a click would do there."""
         pick = None if place is None else self._viewport.pick(place)
+        self._viewport.under_mouse = pick
+        if place is not None:  # else a menu may have opened
+            self._viewport.under_menu = None
         self._viewport.hovered.emit(pick)
         over = None if place is None else self._viewport.singularity_at(place)
         self._viewport.point_out(over)
+        self._workspace.set(hovered=over)
         if self._workspace.state.mark_tool is not None:
             self._workspace.marks.hover(None if pick is None else pick.point, self._onwards)
         if self._workspace.state.tool is not None:

@@ -8,10 +8,14 @@ from functools import partial
 from crossview.gui.solving import Solving
 from crossview.gui.state import Message, MessageAction
 from crossview.gui.store import Store
-from crossview.session.commands import ChooseMethod, Command
+from crossview.session.commands import ChooseMethod, Command, ReplaceSingularities
 from crossview.session.moving import move_to_validity, place_natural
 from solvers.errors import CrossviewError
 from solvers.progress import Progress
+from solvers.validity import Offer, ValidityError
+
+NAMES = {"turns": "another layout", "pair": "one more pair"}
+"""What the steps of offers are called."""
 
 
 class Moves:
@@ -56,8 +60,17 @@ class Moves:
         self._store.clear_message("edit")
         self._solving.run(job, self._do, failed, stopped)
 
+    def _take(self, offer: Offer) -> None:
+        """Make what is offered one step of the history."""
+        if offer.singularities is None:
+            self._do(ChooseMethod(offer.kind))
+        else:
+            self._do(ReplaceSingularities(offer.singularities, f"make valid, {NAMES[offer.kind]}"))
+
     def _offers(self, error: Exception) -> tuple[MessageAction, ...]:
         """Return what the error itself says may be done."""
+        if isinstance(error, ValidityError):
+            return tuple(MessageAction(o.label, partial(self._take, o)) for o in error.offers)
         remedy = error.remedy if isinstance(error, CrossviewError) else ""
         if "anisotropic" not in remedy or self._store.state.method == "anisotropic":
             return ()

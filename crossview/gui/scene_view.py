@@ -12,6 +12,7 @@ from crossview.gui.figure_settings import FigureSettings
 from crossview.gui.ranges import NO_RANGES, Ranges
 from crossview.gui.state import WindowState
 from crossview.scene import Elements, LayerSettings, Marker, SceneView, field_view
+from crossview.scene.colors import condition_color
 from crossview.scene.field import feature_lines
 from crossview.scene.meshes import curves_of, patches_of, quads_of, t_junctions_of
 from crossview.scene.view import Background
@@ -48,8 +49,9 @@ def scene_view(state: WindowState, held: Ranges = NO_RANGES) -> SceneView:
         return SceneView(background=background, layers=state.layers)
     field = state.field if state.field is not None and state.field.surface is surface else None
     positions = document.surface.positions([s.point for s in state.singularities])
+    selected = (state.selected, state.partner)
     markers = tuple(
-        Marker(_triple(position), s.valence, selected=i == state.selected, locked=s.locked)
+        Marker(_triple(position), s.valence, selected=i in selected, locked=s.locked)
         for i, (s, position) in enumerate(zip(state.singularities, positions, strict=True))
     )
     if field is None:
@@ -64,6 +66,8 @@ def scene_view(state: WindowState, held: Ranges = NO_RANGES) -> SceneView:
         singularities=markers,
         preview=_preview(state, surface),
         loop=_loop(state),
+        loop_color="" if state.condition is None else condition_color(state.condition),
+        guide=state.guide,
         problem=Elements(faces=poor_faces(surface)) if state.poor else state.pointed,
         title=_title(state, document),
         background=background,
@@ -75,8 +79,9 @@ def _with_meshes(view: SceneView, state: WindowState) -> SceneView:
     """Return the view with what has been made of the field."""
     made, separatrices = state.made, state.separatrices
     if separatrices is not None:
-        curves, t_junctions = curves_of(separatrices), t_junctions_of(separatrices)
-        view = replace(view, separatrices=curves, t_junctions=t_junctions)
+        view = replace(view, separatrices=curves_of(separatrices))
+        if made.settled:  # in a drag curves are cut for speed
+            view = replace(view, t_junctions=t_junctions_of(separatrices))
     return replace(
         view,
         misaligned=made.misaligned,
@@ -104,7 +109,8 @@ def figure_view(
     state: WindowState, settings: FigureSettings, held: Ranges = NO_RANGES
 ) -> SceneView:
     """Return what to draw in a figure: what is shown, without what only helps to edit."""
-    plain = replace(state, trial=None, selected=None, condition=None, poor=False)
+    plain = replace(state, trial=None, selected=None, partner=None)
+    plain = replace(plain, condition=None, guide=(), poor=False)
     view = scene_view(replace(plain, mark_tool=None), held)
     return replace(view, background="transparent") if settings.transparent else view
 

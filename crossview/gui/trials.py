@@ -10,6 +10,7 @@ from crossview.gui.state import Trial
 from crossview.gui.store import Store
 from crossview.session.commands import Command, MoveSingularity
 from crossview.session.document import Document
+from crossview.session.guiding import Guidance
 from crossview.session.live import LiveEdit
 from solvers.points import SurfacePoint
 from solvers.singularities import Singularity
@@ -30,6 +31,7 @@ class Trials:
         self._store = store
         self._solving = solving
         self._do = do
+        self._guidance: Guidance | None = None
 
     def preview(self, point: SurfacePoint | None) -> None:
         """Show what a click of the add tool at `point` of the shown surface would do."""
@@ -54,16 +56,29 @@ class Trials:
             return False
         point = document.singularities[index].point
         placed = point if state.base is None else state.base.locate(point)
-        trial = Trial(document.singularities, index, placed, self._live_edit(document), drag=True)
+        edit = self._live_edit(document)
+        self._guidance = None
+        if edit is not None and document.budget.satisfied:
+            self._guidance = Guidance(edit, index)
+        trial = Trial(document.singularities, index, placed, edit, drag=True)
         self._store.set(trial=trial, selected=index)
         return True
 
-    def drag_to(self, point: SurfacePoint) -> None:
-        """Move the held singularity to `point` of the shown surface; the field follows."""
+    def drag_to(self, point: SurfacePoint, keep: bool = False) -> None:
+        """Move the held singularity to `point` of the shown surface; the field follows.
+
+        Parameters
+        ----------
+        point : SurfacePoint
+        keep : bool
+            Keep it on the guide line of the condition that is followed, else of the worst one.
+        """
         state = self._store.state
         trial = state.trial
         if trial is None or not trial.drag:
             return
+        if keep and self._guidance is not None:
+            point = self._guidance.kept(state.followed, point)
         moved = list(trial.singularities)
         moved[trial.index] = replace(moved[trial.index], point=state.lifted(point))
         edit = None if trial.edit is None else trial.edit.moved(trial.index, point)

@@ -69,6 +69,8 @@ class Viewport(QWidget):
         self.mouse = Mouse(self, workspace)
         self.plotter.installEventFilter(self.mouse)
         self.held = HeldRanges()
+        self.under_mouse: Pick | None = None
+        self.under_menu: Pick | None = None
         self._started = 0.0
         self._fitted: str | None = "auto"  # the preset view, until the user turns it
         self._late = self._timer(LATE_MS, self._draw)
@@ -173,6 +175,7 @@ class Viewport(QWidget):
 
     def ask_menu(self, place: QPointF, global_place: QPoint) -> None:
         """Ask for the menu of what is under a place."""
+        self.under_menu = self.pick(place)
         self.menu_wanted.emit(self.singularity_at(place), global_place)
 
     def pass_on(self, event: QEvent) -> bool:
@@ -220,7 +223,7 @@ class Viewport(QWidget):
 
 def _same_picture(old: WindowState, new: WindowState) -> bool:
     """Whether only what the scene does not show differs."""
-    unseen = {"message", "progress", "iterate", "undo_name", "redo_name"}
+    unseen = {"message", "progress", "iterate", "undo_name", "redo_name", "hovered", "pinned"}
     told = old.faulty is new.faulty and old.pointed is new.pointed
     return told and all(
         getattr(old, name) is value for name, value in vars(new).items() if name not in unseen

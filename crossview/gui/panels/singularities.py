@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QSize, Qt
-from PySide6.QtGui import QAction
+from PySide6.QtGui import QAction, QGuiApplication
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QFrame,
@@ -122,7 +122,7 @@ class SingularitiesPanel(QWidget):
         """Return the verbs for the selected singularity, as the scene's right-click offers."""
         menu = QMenu(self)
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        for name in ("raise", "lower", "lock", "delete"):
+        for name in ("raise", "lower", "split", "merge", "lock", "delete"):
             menu.addAction(self._actions[name])
         return menu
 
@@ -146,7 +146,9 @@ class SingularitiesPanel(QWidget):
 
     def _current_changed(self, current: QModelIndex) -> None:
         if current.isValid():
-            self._workspace.set(selected=current.row())
+            held = QGuiApplication.keyboardModifiers()
+            both = bool(held & Qt.KeyboardModifier.ControlModifier)
+            self._workspace.select(current.row(), both)
 
     def _select(self, row: int | None) -> None:
         if row is None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from PySide6.QtCore import QEvent, QSize, Qt, Signal
-from PySide6.QtGui import QAction, QEnterEvent
+from PySide6.QtGui import QAction, QEnterEvent, QMouseEvent
 from PySide6.QtWidgets import (
     QFrame,
     QHBoxLayout,
@@ -20,17 +20,26 @@ from crossview.gui.icons import dot_icon
 from crossview.gui.panels.texts import BAD, GOOD, WAITING, degrees, signed
 from crossview.gui.state import WindowState
 from crossview.gui.workspace import Workspace
+from crossview.scene.colors import condition_color
 from crossview.session.mending import Mending, mendings
 
 DOT = QSize(14, 14)
+BAR = 4
 
 
 class Verdict(QFrame):
-    """A dot, what it is about, and a value at the right."""
+    """A dot, what it is about, and a value at the right.
+
+    Parameters
+    ----------
+    mark : str
+        Colour of a bar at the left: that of what belongs to the row in the scene; empty: none.
+    """
 
     hovered = Signal(bool)
+    clicked = Signal()
 
-    def __init__(self, parent: QWidget | None = None) -> None:
+    def __init__(self, mark: str = "", parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._dot, self.text, self.value = QLabel(), QLabel(), QLabel()
         self.value.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
@@ -39,6 +48,13 @@ class Verdict(QFrame):
         layout = QHBoxLayout(self)
         layout.setContentsMargins(8, 3, 8, 3)
         layout.setSpacing(8)
+        if mark:
+            layout.setContentsMargins(0, 3, 8, 3)
+            layout.setSpacing(6)
+            bar = QFrame()
+            bar.setFixedWidth(BAR)
+            bar.setStyleSheet(f"background: {mark}")
+            layout.addWidget(bar)
         layout.addWidget(self._dot)
         layout.addWidget(self.text, 1)
         layout.addWidget(self.value)
@@ -51,6 +67,17 @@ class Verdict(QFrame):
         self.text.setText(text)
         self.text.setToolTip(text)
         self.value.setText(value)
+
+    def pin(self, pinned: bool) -> None:
+        """Show whether the guide keeps to this row."""
+        font = self.text.font()
+        font.setBold(pinned)
+        self.text.setFont(font)
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Tell of a click."""
+        self.clicked.emit()
+        super().mousePressEvent(event)
 
     def enterEvent(self, event: QEnterEvent) -> None:
         """Tell that the mouse is here."""
@@ -120,6 +147,8 @@ class ValidityPanel(QWidget):
 
     def show_state(self, old: WindowState | None, new: WindowState) -> None:
         """Follow the window's state."""
+        for number, row in enumerate(self.rows):
+            row.pin(number == new.pinned)
         seen = ("document", "trial", "field", "base", "solution", "moving")
         if old is not None and all(getattr(old, name) is getattr(new, name) for name in seen):
             return
@@ -187,14 +216,20 @@ class ValidityPanel(QWidget):
             self._row_layout.removeWidget(row)
             row.deleteLater()
         while len(self.rows) < count:
-            row, number = Verdict(), len(self.rows)
+            number = len(self.rows)
+            row = Verdict(condition_color(number))
             row.hovered.connect(
                 lambda inside, number=number: self._workspace.set(
                     condition=number if inside else None
                 )
             )
+            row.clicked.connect(lambda number=number: self._toggle(number))
             self._row_layout.insertWidget(number, row)
             self.rows.append(row)
+
+    def _toggle(self, number: int) -> None:
+        pinned = self._workspace.state.pinned
+        self._workspace.set(pinned=None if pinned == number else number)
 
 
 def _button(action: QAction) -> QPushButton:
