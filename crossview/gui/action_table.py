@@ -46,6 +46,39 @@ def _is_any(state: WindowState) -> bool:
     return state.tool is not None and state.tool not in TOOL_VALENCES
 
 
+def _paired(state: WindowState) -> bool:
+    return state.document is not None and state.pair is not None
+
+
+def _incomplete(state: WindowState) -> bool:
+    return state.document is not None and not state.document.budget.satisfied
+
+
+def _placed(state: WindowState) -> bool:
+    return state.document is not None and len(state.document.singularities) > 0
+
+
+def _carried() -> tuple[ActionSpec, ...]:
+    """Actions that mirror and turn a configuration."""
+    verbs = (
+        ("mirror", "Mirror across", "Mirror", "Put all singularities at their mirror images"),
+        ("rotate", "Rotate 90° about", "Rotate", "Turn all singularities about the middle"),
+    )
+    return tuple(
+        ActionSpec(
+            f"{verb}-{name}",
+            f"{title} {name}",
+            "Singularities",
+            lambda w, verb=verb, axis=axis: getattr(w.workspace.pairs, verb)(axis),  # type: ignore[misc]
+            tip=tip,
+            enabled=_placed,
+            submenu=submenu,
+        )
+        for verb, title, submenu, tip in verbs
+        for axis, name in enumerate("xyz")
+    )
+
+
 def _with_selected(verb: Callable[[MainWindow, int], None], window: MainWindow) -> None:
     index = window.workspace.state.selected
     if index is not None:
@@ -233,6 +266,28 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "clear", "Delete all", "Singularities",
         lambda w: w.workspace.remove(*range(len(w.workspace.state.singularities))),
         tip="Delete every singularity", enabled=lambda s: len(s.singularities) > 0,
+    ),
+    ActionSpec(
+        "add-pair", "Add a pair of 3 and 5", "Singularities", lambda w: w.add_pair(), ("P",),
+        tip="Around the place under the mouse, else where there is most room; keeps the index sum",
+        enabled=_open, separated=True,
+    ),
+    ActionSpec(
+        "merge", "Merge the two selected", "Singularities",
+        lambda w: w.workspace.pairs.merge(), ("J",),
+        tip="One singularity of two; select the second with Ctrl and a click", enabled=_paired,
+    ),
+    ActionSpec(
+        "split", "Split in two", "Singularities",
+        partial(_with_selected, lambda w, i: w.workspace.pairs.split(i)), ("S",),
+        tip="Two singularities of half the index, as two 5 of a 6", enabled=_selected,
+    ),
+    *_carried(),
+    ActionSpec(
+        "distribute", "Distribute the missing index", "Singularities",
+        lambda w: w.workspace.pairs.distribute(),
+        tip="Add the valences 3 or 5 that are missing, where they even out the sizes most",
+        enabled=_incomplete,
     ),
     ActionSpec(
         "make-valid", "Make valid", "Singularities", lambda w: w.workspace.moves.make_valid(),

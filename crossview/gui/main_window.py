@@ -117,6 +117,11 @@ class MainWindow(QMainWindow):
         self.docks["Quads"].raise_()
         self.workspace.meshing.make(self.quads_panel.options)
 
+    def add_pair(self) -> None:
+        """Add a pair where the mouse is, where the menu was asked for, or where there is room."""
+        pick = self.viewport.under_menu or self.viewport.under_mouse
+        self.workspace.pairs.add(None if pick is None else pick.point)
+
     def show_about(self) -> None:
         """Say what this is."""
         QMessageBox.about(
@@ -174,6 +179,7 @@ class MainWindow(QMainWindow):
         if old.document is not new.document:
             name = "" if new.document is None else f"{new.document.name} \u2013 "
             self.setWindowTitle(f"{name}crossview")
+        self.workspace.guiding.follow()
         before = None if old.document is None else old.document.surface
         after = None if new.document is None else new.document.surface
         if before is not after or old.faulty is not new.faulty:

@@ -20,7 +20,7 @@ from crossview.session.commands import MAX_VALENCE, MIN_VALENCE
 if TYPE_CHECKING:
     from crossview.gui.main_window import MainWindow
 
-SEARCHED = ("Natural singularities",)
+SEARCHED = ("Natural singularities", "Mirror", "Rotate")
 """Submenus whose actions are in the palette: the others repeat some."""
 MENUS = ("File", "Edit", "Surface", "Singularities", "Solve", "View", "Gallery", "Help")
 
@@ -81,7 +81,8 @@ class Menus:
         """Return the menu for a place of the scene without singularity."""
         menu = QMenu(self._window)
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        for name in ("select", *(f"add-{v}" for v in TOOL_VALENCES), "add-any", "fit"):
+        tools = (f"add-{v}" for v in TOOL_VALENCES)
+        for name in ("select", *tools, "add-any", "add-pair", "fit"):
             menu.addAction(self._window.actions_table.by_name[name])
         return menu
 

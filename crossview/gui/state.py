@@ -11,7 +11,7 @@ from crossview.case import METHODS
 from crossview.marking import Marking
 from crossview.pipeline import Solution
 from crossview.problem import Problem
-from crossview.scene import Elements, LayerSettings, default_layers
+from crossview.scene import Elements, GuideLine, LayerSettings, default_layers
 from crossview.session.document import Document
 from crossview.session.live import LiveBase, LiveEdit
 from crossview.session.meshes import NO_MESHES, Meshes
@@ -174,8 +174,16 @@ class WindowState:
         Whether natural singularities come from crosses that are drawn to principal directions.
     selected : int or None
         Number of the selected singularity.
+    partner : int or None
+        Number of a second selected singularity: see `pair`.
+    hovered : int or None
+        Number of the singularity under the mouse.
     condition : int or None
         Number of the holonomy condition whose loop is pointed out.
+    pinned : int or None
+        Number of the holonomy condition that the guide keeps to: see `followed`.
+    guide : tuple of GuideLine
+        Where the singularity under the mouse may go.
     poor : bool
         Whether the poor triangles are pointed out.
     trial : Trial or None
@@ -204,7 +212,11 @@ class WindowState:
     feature_trial: FeatureTrial | None = None
     along_curvature: bool = False
     selected: int | None = None
+    partner: int | None = None
+    hovered: int | None = None
     condition: int | None = None
+    pinned: int | None = None
+    guide: tuple[GuideLine, ...] = ()
     poor: bool = False
     trial: Trial | None = None
     layers: Mapping[str, LayerSettings] = dataclasses.field(default_factory=default_layers)
@@ -222,6 +234,18 @@ class WindowState:
         if self.trial is not None and self.trial.drag:
             return self.trial.singularities
         return () if self.document is None else self.document.singularities
+
+    @property
+    def pair(self) -> tuple[int, int] | None:
+        """The two singularities that are selected, if two are."""
+        if self.selected is None or self.partner is None or self.partner == self.selected:
+            return None
+        return self.partner, self.selected
+
+    @property
+    def followed(self) -> int | None:
+        """The one holonomy condition that the guide shows: pointed at, else pinned; None: all."""
+        return self.pinned if self.condition is None else self.condition
 
     @property
     def shown_surface(self) -> TriSurface | None:

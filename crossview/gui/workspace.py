@@ -8,9 +8,11 @@ from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 
+from crossview.gui.guiding import Guiding
 from crossview.gui.marking import Marks
 from crossview.gui.meshing import Meshing
 from crossview.gui.moves import Moves
+from crossview.gui.pairs import Pairs
 from crossview.gui.solving import Solving
 from crossview.gui.state import Faulty, MessageAction
 from crossview.gui.store import Store
@@ -48,10 +50,13 @@ class Workspace(Store):
         self.trials = Trials(self, self.solving, self.do)
         self.moves = Moves(self, self.solving, self.do)
         self.marks = Marks(self, self.do)
+        self.guiding = Guiding(self)
+        self.pairs = Pairs(self, self.solving, self.do)
         self.meshing = Meshing(self, self.solving, self.do, self.moves.make_valid)
 
     def close(self) -> None:
         """End the background thread."""
+        self.guiding.close()
         self.solving.close()
 
     def open(self, target: str, component: str | None = None, repair: bool = False) -> None:
@@ -104,6 +109,11 @@ class Workspace(Store):
         """Make the last undone step again."""
         self._history.redo()
         self._document_changed()
+
+    def select(self, index: int | None, both: bool = False) -> None:
+        """Select singularity `index`; with `both` the one selected before stays selected too."""
+        before = self.state.selected if both and index != self.state.selected else None
+        self.set(selected=index, partner=before)
 
     def add(self, point: SurfacePoint, valence: int) -> None:
         """Add a singularity at `point` of the shown surface and select it."""
@@ -180,6 +190,8 @@ class Workspace(Store):
             "document": document,
             "trial": None,
             "feature_trial": None,
+            "partner": None,
+            "hovered": None,
             "undo_name": self._history.undo_name,
             "redo_name": self._history.redo_name,
         }
@@ -189,7 +201,16 @@ class Workspace(Store):
             changes["selected"] = None
         before = None if state.document is None else state.document.surface
         if document is None or document.surface is not before:
-            gone = ("base", "solution", "field", "start", "cut_graph", "selected", "condition")
+            gone = (
+                "base",
+                "solution",
+                "field",
+                "start",
+                "cut_graph",
+                "selected",
+                "condition",
+                "pinned",
+            )
             changes |= dict.fromkeys((*gone, "mark_tool"))
         elif not document.budget.satisfied:
             changes |= {"solution": None, "field": None, "start": None, "cut_graph": None}
