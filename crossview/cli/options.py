@@ -9,6 +9,7 @@ from cyclopts import Parameter
 
 from crossview.case import Case, check_method
 from crossview.gallery import find_case
+from crossview.meshing import MeshOptions
 from solvers.errors import CrossviewError
 
 Output = Annotated[str, Parameter(name=["--output", "-o"])]
@@ -44,6 +45,29 @@ def chosen_case(
             )
         case = replace(case, features=replace(case.features, dihedral_degrees=features))
     return case if method is None else replace(case, method=check_method(method, "--method"))
+
+
+def mesh_options(
+    quads: bool,
+    edge_length: float | None,
+    target_quads: int | None,
+    collapse: bool,
+    remedy: str,
+) -> MeshOptions | None:
+    """What the command line says about quads; None if it wants none.
+
+    Raises
+    ------
+    CrossviewError
+        It wants none and says how they should be, or something impossible.
+    """
+    if quads:
+        return MeshOptions(edge_length, target_quads, collapse)
+    given = {"edge-length": edge_length, "target-quads": target_quads, "collapse": collapse or None}
+    for name, value in given.items():
+        if value is not None:
+            raise CrossviewError(f"--{name} is about quads", "", remedy)
+    return None
 
 
 def _component(text: str) -> int | str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 from collections.abc import Generator
 from pathlib import Path
@@ -11,14 +12,20 @@ from cyclopts import Parameter
 
 from crossview import gallery as cases
 from crossview.case import Case
-from crossview.cli.options import Flag, Output, chosen_case
+from crossview.cli.options import Flag, Output, chosen_case, mesh_options
 from crossview.cli.terminal import say, watch
+from crossview.meshing import MeshOptions, layout, quads_of
 from crossview.pipeline import Solution, solve_case
 from crossview.staging import staged
+from solvers.arrangement import LayoutError
 from solvers.errors import CrossviewError
 from solvers.progress import Progress
+from solvers.quadmesh import QuadMesh
 
-FIGURE = "figure.png"
+FIGURE, QUADS = "figure.png", "quads.png"
+QUAD_LAYERS = ("quads", "singularities", "boundary", "legend", "axes")
+COARSE = MeshOptions(target_quads=1500)
+"""Of the gallery: quads that can be told apart in a picture."""
 
 
 def render(
@@ -33,6 +40,9 @@ def render(
     scale: float = 1.0,
     transparent: Flag = False,
     camera: str = "auto",
+    edge_length: float | None = None,
+    target_quads: int | None = None,
+    collapse: Flag = False,
     component: str | None = None,
     repair: Flag = False,
     quiet: Flag = False,
@@ -51,7 +61,8 @@ def render(
         Degrees: edges over which the surface bends by more are to be followed, as are the curves
         that the case marks.
     layers
-        What to draw, such as H,crosses,singularities,cut; by default what the window shows.
+        What to draw, such as H,crosses,singularities,cut; by default what the window shows. layout
+        draws the patches, quads the quad mesh.
     size
         Width and height, such as 1600x1200.
     scale
@@ -60,6 +71,12 @@ def render(
         Leave the background out.
     camera
         auto, iso, xy, xz, yz, or position, focus and up as nine numbers with commas.
+    edge_length
+        For the layer quads: mean length of their edges.
+    target_quads
+        About how many quads; 5000 if neither is given.
+    collapse
+        Let parts of the layout vanish where that gives a coarser mesh.
     component
         Of a surface in several pieces: largest, or a number (0 is the largest).
     repair
@@ -75,11 +92,19 @@ def render(
     if found.options.component == "all":
         raise CrossviewError("a picture shows one component", "all", "name one with --component")
     shown = None if layers is None else [name.strip() for name in layers.split(",")]
+    wanted = mesh_options(
+        "quads" in (shown or ()), edge_length, target_quads, collapse, "draw --layers quads"
+    )
     pixels, target = _size(size), Path(output)
     check(target, layers=shown, size=pixels, scale=scale, camera=camera)
 
     def work(path: Path) -> Generator[Progress, None, Solution]:
         solution = yield from _component_of(whole, found)
+        quads = None
+        if wanted is not None:
+            solution, quads = yield from quads_of(solution, wanted)
+        elif "layout" in (shown or ()):
+            yield from layout(solution)
         yield Progress("drawing", 0.9)
         draw(
             solution,
@@ -89,6 +114,7 @@ def render(
             scale=scale,
             transparent=transparent,
             camera=camera,
+            quads=quads,
         )
         return solution
 
@@ -122,6 +148,8 @@ def gallery(
 ) -> None:
     """Solve and draw gallery cases, each into a folder of its own with a report.
 
+    Those whose field is aligned and integrable get quads, too.
+
     Parameters
     ----------
     names
@@ -141,20 +169,29 @@ def gallery(
     if output is None:
         raise CrossviewError("no folder for the results", "", "name one with -o, or --list")
     from crossview.export.figures import render as draw
-    from crossview.export.report import summary, write_files
+    from crossview.export.report import quads_summary, summary, write_files
 
-    def work(name: str, directory: Path) -> Generator[Progress, None, Solution]:
+    def work(
+        name: str, directory: Path
+    ) -> Generator[Progress, None, tuple[Solution, QuadMesh | None]]:
         (solution,) = yield from solve_case(chosen_case(str(paths[name])))
+        quads = None
+        with contextlib.suppress(LayoutError):  # the summary tells that the field is not valid
+            solution, quads = yield from quads_of(solution, COARSE)
         yield Progress(f"drawing {name}", 0.9)
-        write_files(solution, directory)
+        write_files(solution, directory, quads)
         draw(solution, directory / FIGURE)
-        return solution
+        if quads is not None:
+            draw(solution, directory / QUADS, layers=QUAD_LAYERS, quads=quads)
+        return solution, quads
 
     for name in paths:
         with staged(Path(output) / name) as staging:
-            solution = watch(work(name, staging), quiet)
+            solution, quads = watch(work(name, staging), quiet)
         if not quiet:
             say(f"{name}: {summary(solution)}")
+            if quads is not None:
+                say(f"{name}: {quads_summary(solution, quads)}")
 
 
 def _size(text: str) -> tuple[int, int]:

@@ -6,12 +6,11 @@ from collections.abc import Generator
 from pathlib import Path
 
 from crossview.case import Case
-from crossview.cli.options import Flag, Json, Output, chosen_case
+from crossview.cli.options import Flag, Json, Output, chosen_case, mesh_options
 from crossview.cli.terminal import say, say_json, watch
 from crossview.meshing import MeshOptions, quads_of
 from crossview.pipeline import Solution, solve_case
 from crossview.staging import staged
-from solvers.errors import CrossviewError
 from solvers.progress import Progress
 from solvers.quadmesh import QuadMesh
 
@@ -67,7 +66,7 @@ def solve(
     """
     from crossview.export.report import quads_summary, report, summary
 
-    wanted = _wanted(quads, edge_length, target_quads, collapse)
+    wanted = mesh_options(quads, edge_length, target_quads, collapse, "add --quads")
     found = chosen_case(case, method, component, repair, features)
     with staged(output) as staging:
         results = watch(_solved_into(staging, found, wanted), quiet)
@@ -80,19 +79,6 @@ def solve(
             if made is not None:
                 say(quads_summary(solution, made))
         say(f"wrote {Path(output)}")
-
-
-def _wanted(
-    quads: bool, edge_length: float | None, target_quads: int | None, collapse: bool
-) -> MeshOptions | None:
-    """What the command line says about quads; None if it wants none."""
-    if quads:
-        return MeshOptions(edge_length, target_quads, collapse)
-    given = {"edge-length": edge_length, "target-quads": target_quads, "collapse": collapse or None}
-    for name, value in given.items():
-        if value is not None:
-            raise CrossviewError(f"--{name} is about quads", "", "add --quads")
-    return None
 
 
 def _solved_into(

@@ -5,9 +5,11 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from crossview.export.raster import FigureError, check_size, picture
 from crossview.export.vector import save_vector
+from crossview.meshing import misaligned_boundaries, separatrices
 from crossview.pipeline import Solution
 from crossview.scene import (
     Camera,
@@ -20,8 +22,10 @@ from crossview.scene import (
 )
 from crossview.scene.camera import read_camera
 from crossview.scene.field import feature_lines
+from crossview.scene.meshes import curves_of, patches_of, quads_of, t_junctions_of
 from crossview.scene.view import Background
 from crossview.staging import staged
+from solvers.quadmesh import QuadMesh
 
 KINDS = (".png", ".svg", ".pdf")
 
@@ -36,6 +40,7 @@ def render(
     transparent: bool = False,
     camera: str = "auto",
     background: Background = "white",
+    quads: QuadMesh | None = None,
 ) -> Path:
     """Draw a solution to a file.
 
@@ -45,9 +50,9 @@ def render(
     path : path-like
         PNG, or SVG or PDF for curves and crosses as vectors.
     layers : sequence of str, optional
-        Names of the layers drawn: surface, H, theta, H1, H2, aspect, error, crosses,
-        singularities, cut, features, boundary, legend, axes. By default what the window shows at
-        first.
+        Names of the layers drawn: surface, H, theta, H1, H2, aspect, error, crosses, separatrices,
+        marks, layout, quads, singularities, cut, features, boundary, legend, axes. By default what
+        the window shows at first.
     size : (int, int)
         Width and height; pixels if the scale is 1.
     scale : float
@@ -57,6 +62,8 @@ def render(
     camera : str
         auto, iso, xy, xz, yz, or px,py,pz,fx,fy,fz,ux,uy,uz: position, focus, up.
     background : {"white", "dark"}
+    quads : QuadMesh, optional
+        For the layer quads. The layer layout draws that of the solution if it has been made.
 
     Returns
     -------
@@ -79,8 +86,25 @@ def render(
         **feature_lines(
             solution.features, solution.field, solution.problem.options.tolerance_degrees
         ),
+        **_meshes(solution, chosen, quads),
     )
     return render_view(view, path, size=size, scale=scale, camera=camera)
+
+
+def _meshes(
+    solution: Solution, layers: Mapping[str, LayerSettings], quads: QuadMesh | None
+) -> dict[str, Any]:
+    """What the layers of separatrices, marks, layout and quads draw."""
+    drawn: dict[str, Any] = {}
+    if layers["separatrices"].visible or layers["marks"].visible:
+        curves = separatrices(solution)
+        drawn["separatrices"], drawn["t_junctions"] = curves_of(curves), t_junctions_of(curves)
+        drawn["misaligned"] = misaligned_boundaries(solution)[1]
+    if solution.derived.layout is not None and layers["layout"].visible:
+        drawn["layout"] = patches_of(solution.derived.layout)
+    if quads is not None:
+        drawn["quads"] = quads_of(quads)
+    return drawn
 
 
 def check(

@@ -10,6 +10,7 @@ import meshio
 import numpy as np
 import pytest
 import pyvista as pv
+from PIL import Image
 
 from crossview.meshing import MeshOptions
 from solvers.errors import CrossviewError
@@ -198,3 +199,29 @@ def refused(ran, tmp_path, *said):
     assert (ran.status, ran.out) == (2, "")
     assert not (tmp_path / "out").exists()
     assert not list(tmp_path.glob(".crossview-*"))
+
+
+def test_layouts_and_quads_are_drawn(crossview, tmp_path):
+    small = ["--size", "300x225", "--camera", "xy"]
+
+    def drawn(name, *arguments):
+        path = tmp_path / name
+        ran = crossview("render", "disk-4", "-o", path, *small, *arguments)
+        assert ran.status == 0, ran.err
+        return np.asarray(Image.open(path).convert("RGB"), dtype=float)
+
+    fine = drawn("a.png", "--layers", "quads", "--target-quads", "800")
+    coarse = drawn("b.png", "--layers", "quads", "--edge-length", "0.25")
+    patches = drawn("c.png", "--layers", "layout")
+    # edges are dark on light; there are more of them where quads are smaller
+    dark = [np.count_nonzero(picture.max(axis=2) < 128) for picture in (fine, coarse)]
+    assert dark[0] > 1.5 * dark[1] > 0
+    colours = {tuple(c) for c in (patches[patches.min(axis=2) < 250] // 16).astype(int).tolist()}
+    assert len(colours) >= 5  # of five patches
+
+
+def test_what_cannot_be_drawn_is_told(crossview, tmp_path):
+    asked = ["render", "suboptimal-a", "-o", tmp_path / "out" / "a.png"]
+    refused(crossview(*asked, "--layers", "quads"), tmp_path, "misses 2 boundaries")
+    refused(crossview(*asked, "--layers", "layout"), tmp_path, "misses 2 boundaries")
+    refused(crossview(*asked, "--edge-length", "0.1"), tmp_path, "draw --layers quads")
