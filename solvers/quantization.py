@@ -1,8 +1,9 @@
 """Whole numbers of quads for the arcs of a T-mesh, by mixed-integer programming.
 
-Opposite sides of every rectangle get the same number, and the arcs stay as near as possible to
-their lengths in units of the edge length, in the sum of absolute deviations. What is left without
-integrality is a minimum-cost flow through the rectangles, so branching has little to do.
+Opposite sides of every rectangle get the same number. The arcs stay as near as possible to their
+lengths in units of the edge length, and so do the offsets between nodes that nearly face another
+across a rectangle, where lines of quads would slant; both in the sum of absolute deviations. The
+arcs alone make a minimum-cost flow through the rectangles, so branching has little to do.
 """
 
 from __future__ import annotations
@@ -45,7 +46,8 @@ class Quantization:
     n_quads : int
         Number of quads that the counts give.
     deviation : float
-        Sum over the arcs of the distance of the count from length / edge length.
+        Sum of the distances of the arcs' counts, and of `offsets`, from what lengths / edge
+        length make of them.
     optimal : bool
         False if time was up before the counts were known to be the best.
     """
@@ -91,12 +93,9 @@ def quantize(
         )
     wanted = tmesh.lengths / edge_length
     counts, optimal = _counts(tmesh, wanted, collapse, time_limit)
+    off = np.concatenate([counts - wanted, offsets(tmesh) @ (counts - wanted)])
     return Quantization(
-        counts,
-        edge_length,
-        number_of_quads(tmesh, counts),
-        float(np.abs(counts - wanted).sum()),
-        optimal,
+        counts, edge_length, number_of_quads(tmesh, counts), float(np.abs(off).sum()), optimal
     )
 
 
@@ -165,6 +164,34 @@ def balances(tmesh: TMesh) -> csr_array:
     return matrix[np.flatnonzero(np.diff(matrix.indptr))]
 
 
+def offsets(tmesh: TMesh) -> csr_array:
+    """Return the matrix (., A) that takes counts to how far nodes are from facing another.
+
+    A row for each node within a side of a rectangle: from the node of the opposite side that is
+    nearest to facing it to the place that it faces.
+
+    Parameters
+    ----------
+    tmesh : TMesh
+        The rectangles.
+    """
+    rows, row = [], 0
+    for r in range(tmesh.n_rectangles):
+        for side in range(4):
+            near = tmesh.side(r, side) // 2
+            far = tmesh.side(r, (side + 2) % 4)[::-1] // 2
+            stops = np.concatenate([[0.0], np.cumsum(tmesh.lengths[far])])
+            at = np.cumsum(tmesh.lengths[near])[:-1]
+            faced = np.argmin(np.abs(stops - at[:, None]), axis=1)
+            for k, m in enumerate(faced.tolist()):
+                arcs = np.concatenate([near[: k + 1], far[:m]])
+                sign = np.where(np.arange(len(arcs)) <= k, 1.0, -1.0)
+                rows.append(np.stack([np.full(len(arcs), row), arcs, sign]))
+                row += 1
+    i, j, sign = np.concatenate([*rows, np.zeros((3, 0))], axis=1)
+    return csr_array(coo_array((sign, (i.astype(int), j.astype(int))), shape=(row, tmesh.n_arcs)))
+
+
 def _counts(
     tmesh: TMesh, wanted: FloatArray, collapse: bool, time_limit: float
 ) -> tuple[IntArray, bool]:
@@ -174,6 +201,7 @@ def _counts(
     takes too long, the longest arc of every condition gets an edge, which needs no branching.
     """
     balance = balances(tmesh)
+    measured = csr_array(vstack([eye_array(tmesh.n_arcs), offsets(tmesh)]))
     least = least_counts(tmesh, collapse=collapse)
     end = time.monotonic() + 0.5 * time_limit
     cuts: list[Cut] = []
@@ -181,7 +209,7 @@ def _counts(
         left = end - time.monotonic()
         if left <= 0:
             break
-        counts, optimal = _program(wanted, balance, least, cuts, left)
+        counts, optimal = _program(wanted, measured, balance, least, cuts, left)
         if counts is None:
             break
         found = broken(tmesh, counts)
@@ -191,7 +219,7 @@ def _counts(
     for _ in range(MOST_ROUNDS):
         longest = [cut.arcs[np.argmax(wanted[cut.arcs])] for cut in cuts]
         least[longest] = np.maximum(least[longest], 1)
-        counts, _ = _program(wanted, balance, least, cuts, 0.5 * time_limit)
+        counts, _ = _program(wanted, measured, balance, least, cuts, 0.5 * time_limit)
         found = [] if counts is None else broken(tmesh, counts)
         if not found:
             break
@@ -206,34 +234,41 @@ def _counts(
 
 
 def _program(
-    wanted: FloatArray, balance: csr_array, least: IntArray, cuts: list[Cut], time_limit: float
+    wanted: FloatArray,
+    measured: csr_array,
+    balance: csr_array,
+    least: IntArray,
+    cuts: list[Cut],
+    time_limit: float,
 ) -> tuple[IntArray | None, bool]:
     """Return counts in balance that are nearest to `wanted`, if any, and whether they surely are.
 
-    The unknowns are counts n and deviations t, held above |n - wanted| between whole numbers by
-    three lines; so the program without integrality has whole solutions nearly everywhere.
+    The unknowns are counts n and deviations t of what is measured, held above |n - wanted| between
+    whole numbers by three lines; so the program without integrality has whole solutions nearly
+    everywhere.
     """
-    k = len(wanted)
-    floor = np.floor(wanted)
-    part = wanted - floor
+    k, n = measured.shape
+    value = measured @ wanted
+    floor = np.floor(value)
+    part = value - floor
     slopes = np.stack([-np.ones(k), 1 - 2 * part, np.ones(k)])
-    heights = np.stack([wanted, part - (1 - 2 * part) * floor, -wanted])
-    above = vstack([hstack([diags_array(-slope), eye_array(k)]) for slope in slopes])
-    constraints = [LinearConstraint(above, heights.reshape(-1), np.inf)]
+    heights = np.stack([value, part - (1 - 2 * part) * floor, -value])
+    above = [hstack([-(diags_array(slope) @ measured), eye_array(k)]) for slope in slopes]
+    constraints = [LinearConstraint(vstack(above), heights.reshape(-1), np.inf)]
     if balance.shape[0]:
         none = csr_array((balance.shape[0], k))
         constraints.append(LinearConstraint(hstack([balance, none]), 0, 0))
     if cuts:
         column = np.concatenate([cut.arcs for cut in cuts])
         row = np.repeat(np.arange(len(cuts)), [len(cut.arcs) for cut in cuts])
-        sums = coo_array((np.ones(len(row)), (row, column)), shape=(len(cuts), 2 * k))
+        sums = coo_array((np.ones(len(row)), (row, column)), shape=(len(cuts), n + k))
         constraints.append(LinearConstraint(csr_array(sums), [cut.least for cut in cuts], np.inf))
     found = milp(
-        np.r_[np.zeros(k), np.ones(k)],
-        integrality=np.r_[np.ones(k), np.zeros(k)],
+        np.r_[np.zeros(n), np.ones(k)],
+        integrality=np.r_[np.ones(n), np.zeros(k)],
         bounds=Bounds(np.r_[least, np.zeros(k)], np.inf),
         constraints=constraints,
         options={"time_limit": time_limit},
     )
-    counts = None if found.x is None else np.rint(found.x[:k]).astype(np.int64)
+    counts = None if found.x is None else np.rint(found.x[:n]).astype(np.int64)
     return counts, found.status == 0
