@@ -46,7 +46,8 @@ class Hand:
         end = time.monotonic() + PATIENCE
         while True:
             QApplication.processEvents()
-            if not self.window.workspace.solving.busy and wanted():
+            work = self.window.workspace
+            if not (work.solving.busy or work.guiding.busy) and wanted():
                 break
             assert time.monotonic() < end, f"still waiting; message: {self.state.message}"
             time.sleep(0.002)
@@ -81,8 +82,8 @@ class Hand:
     def press(self, place: QPointF, button=Qt.MouseButton.LeftButton, keys=NO_KEYS) -> None:
         self._send(QEvent.Type.MouseButtonPress, place, button, button, keys)
 
-    def move(self, place: QPointF, held=Qt.MouseButton.NoButton) -> None:
-        self._send(QEvent.Type.MouseMove, place, Qt.MouseButton.NoButton, held)
+    def move(self, place: QPointF, held=Qt.MouseButton.NoButton, keys=NO_KEYS) -> None:
+        self._send(QEvent.Type.MouseMove, place, Qt.MouseButton.NoButton, held, keys)
 
     def release(self, place: QPointF, button=Qt.MouseButton.LeftButton, keys=NO_KEYS) -> None:
         self._send(QEvent.Type.MouseButtonRelease, place, button, Qt.MouseButton.NoButton, keys)
@@ -92,11 +93,11 @@ class Hand:
         self.press(place, button, keys)
         self.release(place, button, keys)
 
-    def drag(self, start: QPointF, end: QPointF, steps: int = 8) -> None:
+    def drag(self, start: QPointF, end: QPointF, steps: int = 8, keys=NO_KEYS) -> None:
         """Press, move in steps and stay held; `release` lets go."""
-        self.press(start)
+        self.press(start, keys=keys)
         for step in range(1, steps + 1):
-            self.move(start + (end - start) * (step / steps), Qt.MouseButton.LeftButton)
+            self.move(start + (end - start) * (step / steps), Qt.MouseButton.LeftButton, keys)
 
     def wheel(self, place: QPointF, notches: int) -> None:
         event = QWheelEvent(

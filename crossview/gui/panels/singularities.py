@@ -145,7 +145,7 @@ class SingularitiesPanel(QWidget):
             self._workspace.toggle_lock(index.row())
 
     def _current_changed(self, current: QModelIndex) -> None:
-        if current.isValid():
+        if current.isValid() and current.row() != self._workspace.state.selected:
             held = QGuiApplication.keyboardModifiers()
             both = bool(held & Qt.KeyboardModifier.ControlModifier)
             self._workspace.select(current.row(), both)
