@@ -67,10 +67,18 @@ class Stops:
     limit_cycle: BoolArray
 
 
-def stops(traces: Traces, crossings: Crossings) -> Stops:
-    """Return how far each trace is kept."""
+def stops(traces: Traces, crossings: Crossings, longest: float = np.inf) -> Stops:
+    """Return how far each trace is kept.
+
+    Parameters
+    ----------
+    traces, crossings
+        The traces and where they cross.
+    longest : float, optional
+        Traces that are longer, in the map, stop at others even if they come to an end.
+    """
     kept = ~_doubled(traces)
-    endless = (traces.ends == LENGTH) & kept
+    endless = ((traces.ends == LENGTH) | (traces.lengths > longest)) & kept
     at = np.where(endless, np.inf, traces.lengths)
     limit_cycle = np.zeros(len(kept), dtype=bool)
     events = crossings[kept[crossings.trace].all(axis=1) & endless[crossings.trace].any(axis=1)]
@@ -82,7 +90,16 @@ def stops(traces: Traces, crossings: Crossings) -> Stops:
         later = int(np.lexsort((pair, when[i]))[-1])
         at[pair[later]] = reached[later]
         limit_cycle[pair[later]] = True
+    unstopped = endless & ~limit_cycle & (traces.ends != LENGTH)
+    at[unstopped] = traces.lengths[unstopped]
     return Stops(kept, at, limit_cycle)
+
+
+def left_of(crossings: Crossings, stopped: Stops) -> Crossings:
+    """Return the crossings of what is kept of traces."""
+    left = stopped.kept[crossings.trace].all(axis=1)
+    left &= (crossings.at <= stopped.at[crossings.trace]).all(axis=1)
+    return crossings[left]
 
 
 def _doubled(traces: Traces) -> BoolArray:
@@ -288,12 +305,9 @@ def _add_crossings(
     stopped: Stops,
 ) -> IntArray:
     """Add a node for each crossing that is left; return those at which a limit cycle ends."""
-    left = stopped.kept[crossings.trace].all(axis=1)
-    left &= (crossings.at <= stopped.at[crossings.trace]).all(axis=1)
+    left = left_of(crossings, stopped)
     ending = []
-    for pair, chord, at in zip(
-        crossings.trace[left], crossings.chord[left], crossings.at[left], strict=True
-    ):
+    for pair, chord, at in zip(left.trace, left.chord, left.at, strict=True):
         node = build.node(4, True, int(pair[0]), float(at[0]))
         for i, c, length in zip(pair, chord, at, strict=True):
             axis = int(traces.chords.axis[c])

@@ -18,6 +18,7 @@ from solvers.arrangement import (
     arrange,
     bare_loops,
     boundary_halfedges,
+    left_of,
     stops,
 )
 from solvers.connections import best_turn, conditions, passing
@@ -34,8 +35,15 @@ from solvers.triangulation import BoolArray, FloatArray, IntArray
 EXACT = 1e-6
 """How far beside a node a trace meets it, in typical edges of the map."""
 
-LONGEST = 4.0
-"""Length of a trace that is given up as a limit cycle, in diameters of the map."""
+LONGEST, SHORTEST = 4.0, 0.06
+"""Length at which a trace counts as a limit cycle, in diameters of the map, and the least to which
+it is reduced where the layout would become too fine."""
+
+SHORT = 1.5
+"""Length of traces, in diameters, while the map is turned and joined."""
+
+CROSSINGS = 5
+"""Crossings for each trace, beside a hundred for all, that make a layout too fine."""
 
 JOININGS = 4
 """How often the map is fitted again so that separatrices meet the nodes they nearly meet."""
@@ -66,6 +74,8 @@ class QuadLayout:
         Triangles turned over in the map.
     mended : int
         Triangles made stiffer so that they are not.
+    turned : float
+        Angle by which all crosses were turned, radians; 0 where the boundary fixes them.
     """
 
     integrated: IntegratedField
@@ -73,6 +83,7 @@ class QuadLayout:
     separatrices: Separatrices
     flips: int
     mended: int
+    turned: float
 
     @property
     def surface(self) -> TriSurface:
@@ -133,7 +144,7 @@ def quad_layout(integrated: IntegratedField) -> Generator[Progress, None, QuadLa
     yield Progress("fitting the seamless map", 0.0)
     map_ = _Map(integrated)
     yield Progress("tracing separatrices", 0.4)
-    drawing = _Drawing(map_, singular_nodes(map_.chart, integrated.field))
+    drawing = _Drawing(map_, singular_nodes(map_.chart, integrated.field), SHORT)
     if map_.may_turn:
         map_.turn(best_turn(drawing.traces, drawing.crossings))
         drawing = drawing.again()
@@ -145,6 +156,7 @@ def quad_layout(integrated: IntegratedField) -> Generator[Progress, None, QuadLa
         drawing = drawing.again()
     map_.require_upright()
     yield Progress("cutting into rectangles", 0.8)
+    drawing = drawing.again(LONGEST)
     while (seed := drawing.missing()) is not None:
         drawing = drawing.seeded(*seed)
     return drawing.layout()
@@ -245,19 +257,28 @@ class _Map:
 class _Drawing:
     """Traces from nodes in a map as it was."""
 
-    def __init__(self, map_: _Map, nodes: Sequence[Node], n_seeds: int = 0) -> None:
+    def __init__(self, map_: _Map, nodes: Sequence[Node], longest: float, n_seeds: int = 0) -> None:
         self._map = map_
         self._nodes = list(nodes)
+        self._longest = longest
         self._n_seeds = n_seeds
         chart = map_.chart
-        longest = LONGEST * _diameter(chart)
+        self._diameter = _diameter(chart)
         starts = starts_at(chart, nodes)
-        self.traces = trace(chart, nodes, starts, EXACT * chart.edge_length, longest)
+        length = longest * self._diameter
+        self.traces = trace(chart, nodes, starts, EXACT * chart.edge_length, length)
         self.crossings = crossings(chart, self.traces.chords)
 
     @cached_property
     def _stops(self) -> Stops:
-        return stops(self.traces, self.crossings)
+        """How far the traces are kept: as far as the layout does not become too fine."""
+        longest = LONGEST
+        while True:
+            stopped = stops(self.traces, self.crossings, longest * self._diameter)
+            count = len(left_of(self.crossings, stopped))
+            if longest < SHORTEST or count <= 100 + CROSSINGS * len(stopped.kept):
+                return stopped
+            longest /= 2
 
     @property
     def passing(self) -> IntArray:
@@ -268,15 +289,15 @@ class _Drawing:
     def _critical(self) -> BoolArray:
         return np.arange(len(self._nodes)) < len(self._nodes) - self._n_seeds
 
-    def again(self) -> _Drawing:
-        """Return the same in the map as it is now."""
+    def again(self, longest: float | None = None) -> _Drawing:
+        """Return the same in the map as it is now, perhaps with longer traces."""
         nodes = [node_at(self._map.chart, n.vertex, n.quads) for n in self._nodes]
-        return _Drawing(self._map, nodes, self._n_seeds)
+        return _Drawing(self._map, nodes, longest or self._longest, self._n_seeds)
 
     def seeded(self, vertex: int, quads: int) -> _Drawing:
         """Return the same with traces from one more vertex."""
-        seed = node_at(self._map.chart, vertex, quads)
-        return _Drawing(self._map, [*self._nodes, seed], self._n_seeds + 1)
+        nodes = [*self._nodes, node_at(self._map.chart, vertex, quads)]
+        return _Drawing(self._map, nodes, self._longest, self._n_seeds + 1)
 
     def missing(self) -> tuple[int, int] | None:
         """Return where traces are missing, and the number of quads that meet there."""
@@ -301,6 +322,7 @@ class _Drawing:
             curves,
             len(self._map.flipped),
             self._map.mended,
+            self._map.turned,
         )
 
 
