@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import time
 from collections.abc import Generator
 from dataclasses import dataclass, replace
@@ -11,11 +12,12 @@ import numpy as np
 from crossview.solution import Solution
 from solvers.aligned import IntegratedField, aligned_field
 from solvers.arrangement import LayoutError
+from solvers.crossfield import CrossField
 from solvers.errors import CrossviewError
 from solvers.filling import fill
 from solvers.isotropic import IsotropicSolver
 from solvers.layout import QuadLayout, quad_layout
-from solvers.progress import Progress, relayed
+from solvers.progress import Progress, relayed, run
 from solvers.quad_smoothing import smooth
 from solvers.quadmesh import QuadMesh
 from solvers.quantization import quantize, quantize_to
@@ -26,6 +28,9 @@ from solvers.triangulation import FloatArray, IntArray
 DEFAULT_QUADS = 5_000
 MOST_QUADS = 2_000_000
 """More are not asked for but by a slip of the pen."""
+
+SOON = 50_000
+"""Triangles up to which a layout takes seconds at most."""
 
 REMEDY = (
     "make the configuration valid (make-valid) or solve the anisotropic field (method anisotropic)"
@@ -95,18 +100,33 @@ class MeshOptions:
 
 
 def separatrices(solution: Solution) -> Separatrices:
-    """The separatrices of a solution: those of its layout if it has been made, else of its field.
+    """The separatrices of a solution, kept once traced.
+
+    Those of its layout, exact, where it can have one and has it or gets it soon; else those of its
+    field, near and quick.
 
     Parameters
     ----------
     solution : Solution
     """
     derived = solution.derived
+    soon = solution.surface.n_faces <= SOON and derived.separatrices is None
+    if derived.layout is None and soon:
+        with contextlib.suppress(CrossviewError):
+            run(layout(solution))
     if derived.layout is not None:
         return derived.layout.separatrices
     if derived.separatrices is None:
         derived.separatrices = field_separatrices(solution.field)
     return derived.separatrices
+
+
+def turned_field(solution: Solution) -> CrossField:
+    """The field as the separatrices have it: where no boundary fixes it, its layout may turn it."""
+    layout = solution.derived.layout
+    if layout is None or layout.turned == 0:
+        return solution.field
+    return replace(solution.field, theta=solution.field.theta + layout.turned)
 
 
 def misaligned_boundaries(solution: Solution) -> tuple[IntArray, FloatArray]:

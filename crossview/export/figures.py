@@ -9,7 +9,7 @@ from typing import Any
 
 from crossview.export.raster import FigureError, check_size, picture
 from crossview.export.vector import save_vector
-from crossview.meshing import misaligned_boundaries, separatrices
+from crossview.meshing import misaligned_boundaries, separatrices, turned_field
 from crossview.pipeline import Solution
 from crossview.scene import (
     Camera,
@@ -78,15 +78,16 @@ def render(
     check(path, layers=layers, size=size, scale=scale, camera=camera)
     chosen: Mapping[str, LayerSettings] = layers_named(layers) if layers else default_layers()
     cut_graph = solution.cut_graph if chosen["cut"].visible else None
+    meshes = _meshes(solution, chosen, quads)  # before the field, which they may turn
     view = field_view(
-        solution.field,
+        turned_field(solution),
         cut_graph,
         layers=chosen,
         background="transparent" if transparent else background,
         **feature_lines(
             solution.features, solution.field, solution.problem.options.tolerance_degrees
         ),
-        **_meshes(solution, chosen, quads),
+        **meshes,
     )
     return render_view(view, path, size=size, scale=scale, camera=camera)
 

@@ -139,16 +139,16 @@ def write_solution(
 
 def write_files(solution: Solution, directory: Path, quads: QuadMesh | None = None) -> None:
     """Write the files of `write_solution` one by one into an existing folder."""
+    separatrix_lines(solution).save(directory / "separatrices.vtp")  # may turn the field
     field_surface(solution).save(directory / "surface.vtp")
     cross_lines(solution).save(directory / "crosses.vtp")
     cut_lines(solution).save(directory / "cut_graph.vtp")
     singularity_points(solution).save(directory / "singularities.vtp")
     if len(solution.features):
         feature_lines(solution).save(directory / "features.vtp")
-    separatrix_lines(solution).save(directory / "separatrices.vtp")
-    if solution.derived.layout is not None:
-        layout_patches(solution.derived.layout).save(directory / "layout.vtp")
     if quads is not None:
+        if solution.derived.layout is not None:
+            layout_patches(solution.derived.layout).save(directory / "layout.vtp")
         write_mesh(quads, directory / "quads.vtk")
         write_mesh(quads, directory / "quads.obj")
     text = json.dumps(report(solution, quads), indent=2, ensure_ascii=False, allow_nan=False)

@@ -8,7 +8,7 @@ import numpy as np
 import pyvista as pv
 from numpy.typing import NDArray
 
-from crossview.meshing import separatrices
+from crossview.meshing import separatrices, turned_field
 from crossview.pipeline import Solution
 from solvers.layout import QuadLayout
 
@@ -23,7 +23,7 @@ def field_surface(solution: Solution) -> pv.PolyData:
     H1 and H2 (log sizes along u and v at the barycentre), log_aspect = |H2 - H1| and
     error_density, which integrates to the square of E.
     """
-    field = solution.field
+    field = turned_field(solution)
     mesh = pv.PolyData.from_regular_faces(solution.surface.vertices, solution.surface.faces)
     mesh.point_data["H"] = field.H
     mesh.cell_data["theta"] = field.theta
@@ -42,7 +42,7 @@ def cross_lines(solution: Solution) -> pv.PolyData:
     Cell data: "face" the triangle of ``surface.vtp``, "axis" 0 for u and 1 for v, "H" the log
     size along the line.
     """
-    field, surface = solution.field, solution.surface
+    field, surface = turned_field(solution), solution.surface
     H = np.stack([field.H1.mean(axis=1), field.H2.mean(axis=1)], axis=1)
     # a typical cross just fits its triangle
     typical = ARM * np.sqrt(np.median(surface.face_areas))

@@ -119,6 +119,24 @@ def test_a_coarse_mesh_of_fewer_patches_keeps_its_singularities(crossview, tmp_p
         assert quads["inverted"] == 0
 
 
+@pytest.mark.parametrize("name", ["sphere-cube", "sphere-anticube"])
+def test_crosses_and_separatrices_are_written_as_they_fit(crossview, tmp_path, name):
+    """Nothing fixes the crosses' direction on a closed surface but what joins singularities."""
+    out = tmp_path / "out"
+    assert crossview("solve", name, "-o", out).status == 0
+    layout = json.loads((out / "report.json").read_text())["layout"]
+    assert (layout["separatrices"], layout["t_junctions"]) == (12, 0)
+    surface = pv.read(out / "surface.vtp")
+    for curve in range(12):
+        points = pv.read(out / "separatrices.vtp").get_cell(curve).points
+        middle = len(points) // 2
+        way = points[middle] - points[middle - 1]
+        face = surface.find_closest_cell(points[middle - 1 : middle + 1].mean(axis=0))
+        cross = [surface.cell_data[axis][face] for axis in "uv"]
+        along = np.abs(cross @ way).max() / np.linalg.norm(way)
+        assert np.degrees(np.arccos(min(along, 1.0))) < 2
+
+
 def test_without_quads_the_separatrices_are_told_all_the_same(crossview, tmp_path):
     assert crossview("solve", "suboptimal-a", "-o", tmp_path / "out").status == 0
     report = json.loads((tmp_path / "out" / "report.json").read_text())
