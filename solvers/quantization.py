@@ -12,11 +12,11 @@ import time
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import Bounds, LinearConstraint, milp
-from scipy.sparse import coo_array, csr_array, diags_array, eye_array, hstack, vstack
+from scipy.sparse import csr_array, eye_array, vstack
 
 from solvers.collapse import Cut, broken, least_counts
 from solvers.errors import CrossviewError, SolveError
+from solvers.integer_program import balances, nearest_counts, offsets
 from solvers.tmesh import TMesh
 from solvers.triangulation import FloatArray, IntArray
 
@@ -113,7 +113,7 @@ def quantize_to(
     collapse : bool, optional
         Let short arcs have no edge, as in `quantize`.
     time_limit : float, optional
-        Seconds for each program.
+        Seconds after which the best counts found are taken.
 
     Raises
     ------
@@ -126,16 +126,21 @@ def quantize_to(
         )
     length = np.sqrt(tmesh.area / n_quads)
     low, high = 0.0, np.inf
+    end = time.monotonic() + time_limit
     best = found = quantize(tmesh, float(length), collapse=collapse, time_limit=time_limit)
     for _ in range(MOST_TRIALS - 1):
-        if abs(best.n_quads - n_quads) <= NEAR_ENOUGH * n_quads:
+        left = end - time.monotonic()
+        if abs(best.n_quads - n_quads) <= NEAR_ENOUGH * n_quads or left < 0.1 * time_limit:
             break
         low, high = (length, high) if found.n_quads > n_quads else (low, length)
         # The number goes with the inverse square; where that leads out of the bounds, halve.
         length = length * np.sqrt(found.n_quads / n_quads)
         if length <= low or length >= high:
             length = np.sqrt(low * high)
-        found = quantize(tmesh, float(length), collapse=collapse, time_limit=time_limit)
+        try:
+            found = quantize(tmesh, float(length), collapse=collapse, time_limit=left)
+        except SolveError:
+            break
         if abs(found.n_quads - n_quads) < abs(best.n_quads - n_quads):
             best = found
     return best
@@ -145,51 +150,6 @@ def number_of_quads(tmesh: TMesh, counts: IntArray) -> int:
     """Return how many quads fill the rectangles, given the counts (A,) of the arcs."""
     sides = np.rint(tmesh.side_totals(counts.astype(float)))
     return int((sides[:, 0] * sides[:, 1]).sum())
-
-
-def balances(tmesh: TMesh) -> csr_array:
-    """Return the matrix (., A) that takes counts to differences of opposite sides; no zero rows.
-
-    Parameters
-    ----------
-    tmesh : TMesh
-        The rectangles.
-    """
-    side = np.repeat(np.arange(4 * tmesh.n_rectangles), np.diff(tmesh.side_offsets))
-    row = 2 * (side // 4) + side % 2
-    sign = np.where(side % 4 < 2, 1, -1)
-    shape = (2 * tmesh.n_rectangles, tmesh.n_arcs)
-    matrix = csr_array(coo_array((sign, (row, tmesh.side_halfarcs // 2)), shape=shape))
-    matrix.eliminate_zeros()
-    return matrix[np.flatnonzero(np.diff(matrix.indptr))]
-
-
-def offsets(tmesh: TMesh) -> csr_array:
-    """Return the matrix (., A) that takes counts to how far nodes are from facing another.
-
-    A row for each node within a side of a rectangle: from the node of the opposite side that is
-    nearest to facing it to the place that it faces.
-
-    Parameters
-    ----------
-    tmesh : TMesh
-        The rectangles.
-    """
-    rows, row = [], 0
-    for r in range(tmesh.n_rectangles):
-        for side in range(4):
-            near = tmesh.side(r, side) // 2
-            far = tmesh.side(r, (side + 2) % 4)[::-1] // 2
-            stops = np.concatenate([[0.0], np.cumsum(tmesh.lengths[far])])
-            at = np.cumsum(tmesh.lengths[near])[:-1]
-            faced = np.argmin(np.abs(stops - at[:, None]), axis=1)
-            for k, m in enumerate(faced.tolist()):
-                arcs = np.concatenate([near[: k + 1], far[:m]])
-                sign = np.where(np.arange(len(arcs)) <= k, 1.0, -1.0)
-                rows.append(np.stack([np.full(len(arcs), row), arcs, sign]))
-                row += 1
-    i, j, sign = np.concatenate([*rows, np.zeros((3, 0))], axis=1)
-    return csr_array(coo_array((sign, (i.astype(int), j.astype(int))), shape=(row, tmesh.n_arcs)))
 
 
 def _counts(
@@ -209,7 +169,7 @@ def _counts(
         left = end - time.monotonic()
         if left <= 0:
             break
-        counts, optimal = _program(wanted, measured, balance, least, cuts, left)
+        counts, optimal = nearest_counts(wanted, measured, balance, least, cuts, left)
         if counts is None:
             break
         found = broken(tmesh, counts)
@@ -219,7 +179,7 @@ def _counts(
     for _ in range(MOST_ROUNDS):
         longest = [cut.arcs[np.argmax(wanted[cut.arcs])] for cut in cuts]
         least[longest] = np.maximum(least[longest], 1)
-        counts, _ = _program(wanted, measured, balance, least, cuts, 0.5 * time_limit)
+        counts, _ = nearest_counts(wanted, measured, balance, least, cuts, 0.5 * time_limit)
         found = [] if counts is None else broken(tmesh, counts)
         if not found:
             break
@@ -231,44 +191,3 @@ def _counts(
             "choose shorter edges",
         )
     return counts, False
-
-
-def _program(
-    wanted: FloatArray,
-    measured: csr_array,
-    balance: csr_array,
-    least: IntArray,
-    cuts: list[Cut],
-    time_limit: float,
-) -> tuple[IntArray | None, bool]:
-    """Return counts in balance that are nearest to `wanted`, if any, and whether they surely are.
-
-    The unknowns are counts n and deviations t of what is measured, held above |n - wanted| between
-    whole numbers by three lines; so the program without integrality has whole solutions nearly
-    everywhere.
-    """
-    k, n = measured.shape
-    value = measured @ wanted
-    floor = np.floor(value)
-    part = value - floor
-    slopes = np.stack([-np.ones(k), 1 - 2 * part, np.ones(k)])
-    heights = np.stack([value, part - (1 - 2 * part) * floor, -value])
-    above = [hstack([-(diags_array(slope) @ measured), eye_array(k)]) for slope in slopes]
-    constraints = [LinearConstraint(vstack(above), heights.reshape(-1), np.inf)]
-    if balance.shape[0]:
-        none = csr_array((balance.shape[0], k))
-        constraints.append(LinearConstraint(hstack([balance, none]), 0, 0))
-    if cuts:
-        column = np.concatenate([cut.arcs for cut in cuts])
-        row = np.repeat(np.arange(len(cuts)), [len(cut.arcs) for cut in cuts])
-        sums = coo_array((np.ones(len(row)), (row, column)), shape=(len(cuts), n + k))
-        constraints.append(LinearConstraint(csr_array(sums), [cut.least for cut in cuts], np.inf))
-    found = milp(
-        np.r_[np.zeros(n), np.ones(k)],
-        integrality=np.r_[np.ones(n), np.zeros(k)],
-        bounds=Bounds(np.r_[least, np.zeros(k)], np.inf),
-        constraints=constraints,
-        options={"time_limit": time_limit},
-    )
-    counts = None if found.x is None else np.rint(found.x[:n]).astype(np.int64)
-    return counts, found.status == 0

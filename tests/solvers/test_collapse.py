@@ -8,7 +8,8 @@ from scipy.optimize import LinearConstraint, milp
 
 from solvers.collapse import broken
 from solvers.errors import CrossviewError
-from solvers.quantization import balances, quantize, quantize_to
+from solvers.integer_program import balances
+from solvers.quantization import quantize, quantize_to
 from solvers.tmesh import TMesh
 from tests.solvers.suite import SURFACES
 from tests.solvers.tilings import PINWHEEL, assembled, cube, dissection, tiling, torus

@@ -8,7 +8,8 @@ import pytest
 
 from solvers.collapse import least_counts
 from solvers.errors import CrossviewError
-from solvers.quantization import balances, quantize, quantize_to
+from solvers.integer_program import balances
+from solvers.quantization import quantize, quantize_to
 from solvers.tmesh import TMesh
 from tests.solvers.tilings import ONE, PINWHEEL, cube, dissection, tiling, torus
 

@@ -1,0 +1,119 @@
+"""The integer program behind numbers of quads: what is balanced, what is measured, the solve."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.optimize import Bounds, LinearConstraint, milp
+from scipy.sparse import coo_array, csr_array, diags_array, eye_array, hstack, vstack
+
+from solvers.collapse import Cut
+from solvers.tmesh import TMesh
+from solvers.triangulation import FloatArray, IntArray
+
+
+def balances(tmesh: TMesh) -> csr_array:
+    """Return the matrix (., A) that takes counts to differences of opposite sides; no zero rows.
+
+    Parameters
+    ----------
+    tmesh : TMesh
+        The rectangles.
+    """
+    side = np.repeat(np.arange(4 * tmesh.n_rectangles), np.diff(tmesh.side_offsets))
+    row = 2 * (side // 4) + side % 2
+    sign = np.where(side % 4 < 2, 1, -1)
+    shape = (2 * tmesh.n_rectangles, tmesh.n_arcs)
+    matrix = csr_array(coo_array((sign, (row, tmesh.side_halfarcs // 2)), shape=shape))
+    matrix.eliminate_zeros()
+    return matrix[np.flatnonzero(np.diff(matrix.indptr))]
+
+
+def offsets(tmesh: TMesh) -> csr_array:
+    """Return the matrix (., A) that takes counts to how far nodes are from facing another.
+
+    A row for each node within a side of a rectangle: from the node of the opposite side that is
+    nearest to facing it to the place that it faces.
+
+    Parameters
+    ----------
+    tmesh : TMesh
+        The rectangles.
+    """
+    rows, row = [], 0
+    for r in range(tmesh.n_rectangles):
+        for side in range(4):
+            near = tmesh.side(r, side) // 2
+            far = tmesh.side(r, (side + 2) % 4)[::-1] // 2
+            stops = np.concatenate([[0.0], np.cumsum(tmesh.lengths[far])])
+            at = np.cumsum(tmesh.lengths[near])[:-1]
+            faced = np.argmin(np.abs(stops - at[:, None]), axis=1)
+            for k, m in enumerate(faced.tolist()):
+                arcs = np.concatenate([near[: k + 1], far[:m]])
+                sign = np.where(np.arange(len(arcs)) <= k, 1.0, -1.0)
+                rows.append(np.stack([np.full(len(arcs), row), arcs, sign]))
+                row += 1
+    i, j, sign = np.concatenate([*rows, np.zeros((3, 0))], axis=1)
+    return csr_array(coo_array((sign, (i.astype(int), j.astype(int))), shape=(row, tmesh.n_arcs)))
+
+
+def nearest_counts(
+    wanted: FloatArray,
+    measured: csr_array,
+    balance: csr_array,
+    least: IntArray,
+    cuts: list[Cut],
+    time_limit: float,
+) -> tuple[IntArray | None, bool]:
+    """Return counts in balance that are nearest to wanted ones, and whether they surely are.
+
+    Parameters
+    ----------
+    wanted : (A,) float array
+        Where counts are to be near to.
+    measured : (k, A) sparse array
+        The combinations, with whole coefficients, whose deviations are summed.
+    balance : (b, A) sparse array
+        Combinations that vanish.
+    least : (A,) int array
+        The smallest counts.
+    cuts : list of Cut
+        Further conditions.
+    time_limit : float
+        Seconds after which the best counts found are taken.
+
+    Returns
+    -------
+    counts : (A,) int array or None
+        None if none were found in time.
+    optimal : bool
+
+    Notes
+    -----
+    The unknowns are counts n and deviations t, held above |n - wanted| between whole numbers
+    by three lines; so the program without integrality has whole solutions nearly everywhere.
+    """
+    k, n = measured.shape
+    value = measured @ wanted
+    floor = np.floor(value)
+    part = value - floor
+    slopes = np.stack([-np.ones(k), 1 - 2 * part, np.ones(k)])
+    heights = np.stack([value, part - (1 - 2 * part) * floor, -value])
+    above = [hstack([-(diags_array(slope) @ measured), eye_array(k)]) for slope in slopes]
+    constraints = [LinearConstraint(vstack(above), heights.reshape(-1), np.inf)]
+    if balance.shape[0]:
+        none = csr_array((balance.shape[0], k))
+        constraints.append(LinearConstraint(hstack([balance, none]), 0, 0))
+    if cuts:
+        column = np.concatenate([cut.arcs for cut in cuts])
+        row = np.repeat(np.arange(len(cuts)), [len(cut.arcs) for cut in cuts])
+        sums = coo_array((np.ones(len(row)), (row, column)), shape=(len(cuts), n + k))
+        constraints.append(LinearConstraint(csr_array(sums), [cut.least for cut in cuts], np.inf))
+    found = milp(
+        np.r_[np.zeros(n), np.ones(k)],
+        integrality=np.r_[np.ones(n), np.zeros(k)],
+        bounds=Bounds(np.r_[least, np.zeros(k)], np.inf),
+        constraints=constraints,
+        options={"time_limit": time_limit},
+    )
+    counts = None if found.x is None else np.rint(found.x[:n]).astype(np.int64)
+    return counts, found.status == 0
