@@ -16,44 +16,41 @@ from crossview.scene.watch import Watch
 
 
 class GuideLayer:
-    """Lines to follow: thin, and thick with a light rim those that are emphasised."""
+    """Lines to follow with a light rim, thick those that are emphasised."""
 
     def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float) -> None:
-        self._thin = MeshActor(plotter, "guide")
-        self._halo = MeshActor(plotter, "strong guide halo")
-        self._thick = MeshActor(plotter, "strong guide")
-        self._halo.color(CUT_HALO)
-        for actor in self._actors:
+        self._actors = {name: MeshActor(plotter, name) for name in (*_of(False), *_of(True))}
+        for name, actor in self._actors.items():
             actor.flat()
+            if name.endswith("halo"):
+                actor.color(CUT_HALO)
         self._pixel_ratio = pixel_ratio
         self._watch = Watch()
 
     def show(self, view: SceneView, triangles: Triangles | None) -> None:
         """Apply what changed."""
         settings = view.layer("guide")
-        if not settings.visible or triangles is None or not view.guide:
-            for actor in self._actors:
-                actor.visible = False
-            return
-        if self._watch.changed("lines", view.guide):
-            strong = [line for line in view.guide if line.strong]
-            _fill(self._thin, [line for line in view.guide if not line.strong])
-            _fill(self._thick, strong)
-            self._halo.replace(self._thick.mesh.points, lines=_pairs(strong))
-        for actor, name in zip(
-            self._actors, ("guide", "strong guide halo", "strong guide"), strict=True
-        ):
+        shown = settings.visible and triangles is not None and len(view.guide) > 0
+        if shown and self._watch.changed("lines", view.guide):
+            for strong in (False, True):
+                halo, body = (self._actors[name] for name in _of(strong))
+                lines = [line for line in view.guide if line.strong is strong]
+                _fill(body, lines)
+                halo.replace(body.mesh.points, lines=_pairs(lines))
+        for name, actor in self._actors.items():
             actor.property.SetLineWidth(WIDTH[name] * settings.size * self._pixel_ratio)
-            actor.visible = True
+            actor.visible = shown
 
     def remove(self) -> None:
         """Take the guide off the plotter."""
-        for actor in self._actors:
+        for actor in self._actors.values():
             actor.remove()
 
-    @property
-    def _actors(self) -> tuple[MeshActor, MeshActor, MeshActor]:
-        return self._thin, self._halo, self._thick
+
+def _of(strong: bool) -> tuple[str, str]:
+    """Return the names of the rim and of the lines."""
+    name = "strong guide" if strong else "guide"
+    return f"{name} halo", name
 
 
 def _fill(actor: MeshActor, lines: list[GuideLine]) -> None:

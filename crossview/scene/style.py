@@ -15,9 +15,10 @@ WIDTH = {
     "cut": 2.75,
     "cut halo": 4.75,
     "loop": 5.0,
-    "guide": 1.75,
-    "strong guide": 3.75,
-    "strong guide halo": 6.25,
+    "guide": 2.0,
+    "guide halo": 4.0,
+    "strong guide": 5.0,
+    "strong guide halo": 8.0,
     "problem": 3.0,
 }
 # How far each is drawn towards the eye from where it is, in 1/65 536 of the depth seen: lines do
@@ -36,7 +37,8 @@ TOWARDS = {
     "cut halo": 90.0,
     "cut": 100.0,
     "loop": 120.0,
-    "guide": 105.0,
+    "guide halo": 105.0,
+    "guide": 107.0,
     "strong guide halo": 110.0,
     "strong guide": 115.0,
     "problem faces": 150.0,
