@@ -16,22 +16,28 @@ from solvers.progress import run
 README = (Path(__file__).resolve().parents[1] / "README.md").read_text(encoding="utf-8")
 
 
-def block(language):
-    """The only example in a language."""
-    (text,) = re.findall(rf"```{language}\n(.*?)```", README, re.DOTALL)
-    return text
+def blocks(language):
+    """The examples in a language, in their order."""
+    return re.findall(rf"```{language}\n(.*?)```", README, re.DOTALL)
 
 
-def test_the_python_example_prints_what_its_comments_say(capsys):
-    exec(block("python"), {})
+def test_the_python_examples_print_what_their_comments_say(capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    quads, field = blocks("python")
+    exec(quads, {})
     printed = capsys.readouterr().out.splitlines()
-    assert printed[:2] == ["index 0 of 0", "[45.]"]
-    for line in printed[:2]:
+    assert printed == ["6 600 {3: 8}", "True"]
+    assert (tmp_path / "quads.msh").stat().st_size > 0
+    exec(field, {})
+    printed += capsys.readouterr().out.splitlines()[:2]
+    assert printed[2:] == ["index 0 of 0", "[45.]"]
+    for line in printed:
         assert f"# {line}" in README
 
 
 def test_the_case_example_solves():
-    (solution,) = run(solve_case(Case.from_json(json.loads(block("json")))))
+    (text,) = blocks("json")
+    (solution,) = run(solve_case(Case.from_json(json.loads(text))))
     assert solution.field.index_sum == solution.field.index_required
     assert [s.locked for s in solution.singularities] == [False, True]
 
