@@ -54,7 +54,7 @@ def size_docks(window: MainWindow) -> None:
         [docks["Surface"], docks["Layers"]], [LEFT_WIDTH, RIGHT_WIDTH], Qt.Orientation.Horizontal
     )
     for column, shares in (
-        (("Surface", "Singularities", "Validity"), (0.24, 0.42, 0.34)),
+        (("Surface", "Singularities", "Validity"), (0.27, 0.39, 0.34)),
         (("Layers", "Convergence"), (0.52, 0.48)),
     ):
         window.resizeDocks(

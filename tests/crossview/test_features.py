@@ -154,3 +154,13 @@ def test_natural_by_curvature(crossview, tmp_path):
     ran = crossview("natural", "ellipsoid", "-o", new, "--alignment", "x")
     assert ran.status == 2
     assert "smoothness, curvature" in ran.err
+
+
+def test_the_torus_of_the_gallery_misses_its_marked_curve(crossview, tmp_path):
+    ran = crossview("solve", "torus-35", "-o", tmp_path / "out", "--json")
+    (curve,) = ran.json["features"]
+    assert curve["closed"]
+    assert abs(curve["misalignment_degrees"]) > 10
+    assert ran.json["index_sum"] == ran.json["index_required"] == 0
+    assert ran.json["max_closing_error"] < 1e-9
+    assert ran.json["verdict"] == "impossible"

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import (
     QDoubleSpinBox,
     QHBoxLayout,
     QLabel,
-    QPushButton,
+    QToolButton,
     QVBoxLayout,
     QWidget,
 )
@@ -29,7 +29,7 @@ class FeaturesBox(QWidget):
     def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._workspace = workspace
-        self.sharp = QCheckBox("Edges over")
+        self.sharp = QCheckBox("Features over")
         self.sharp.setToolTip("Crosses follow edges over which the surface bends by more than this")
         self.angle = QDoubleSpinBox()
         self.angle.setLocale(QLocale.c())
@@ -37,12 +37,13 @@ class FeaturesBox(QWidget):
         self.angle.setDecimals(0)
         self.angle.setSuffix("\u00b0")
         self.angle.setValue(USUAL_ANGLE)
-        self.mark = QPushButton("Mark edges")
+        self.mark, self.clear = QToolButton(), QToolButton()
+        self.mark.setText("Mark")
         self.mark.setCheckable(True)
         self.mark.setToolTip(
             "A click marks an edge or no longer; with Shift the path from the last click"
         )
-        self.clear = QPushButton("Clear")
+        self.clear.setText("Clear")
         self.clear.setToolTip("No features any more")
         self.found = QLabel()
         self.found.setWordWrap(True)
@@ -57,13 +58,12 @@ class FeaturesBox(QWidget):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(4)
-        for row in ((self.sharp, self.angle), (self.mark, self.clear)):
-            line = QHBoxLayout()
-            line.setSpacing(8)
-            for widget in row:
-                line.addWidget(widget)
-            line.addStretch()
-            layout.addLayout(line)
+        line = QHBoxLayout()
+        line.setSpacing(4)
+        for widget in (self.sharp, self.angle, self.mark, self.clear):
+            line.addWidget(widget)
+        line.addStretch()
+        layout.addLayout(line)
         layout.addWidget(self.found)
 
     def show_state(self, old: WindowState, new: WindowState) -> None:
@@ -100,13 +100,16 @@ class FeaturesBox(QWidget):
 
 
 def _found(state: WindowState) -> str:
-    features = state.features
-    if features is None or not len(features):
+    if state.document is None:
+        return ""
+    trial = state.feature_trial
+    features = state.document.problem.features if trial is None else trial.features
+    if not len(features):
         hint = "click edges to mark them; Shift: the path from the last click"
         return hint.capitalize() if state.mark_tool is not None else ""
     text = f"{count(len(features), 'edge')} in {count(len(features.curves), 'curve')}"
     field = state.field_along_features
-    if state.feature_trial is None and field is not None:
+    if trial is None and field is not None:
         off = float(np.degrees(np.abs(field.feature_misalignment).max(initial=0.0)))
         text += f", off by up to {degrees(off)}" if off > state.tolerance else ", followed"
     return text

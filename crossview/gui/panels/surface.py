@@ -71,9 +71,8 @@ class SurfacePanel(QScrollArea):
         layout.setSpacing(6)
         layout.addWidget(self.name)
         layout.addLayout(form)
-        layout.addWidget(self.notes)
-        layout.addWidget(_faint("Features"))
         layout.addWidget(self.features)
+        layout.addWidget(self.notes)
         layout.addStretch()
         self._form = form
         self._show(None)
