@@ -14,8 +14,8 @@ from solvers.separatrices import Separatrices, field_separatrices
 LONGEST = 1.5
 """Length at which a curve is given up, in square roots of the surface's area."""
 
-PAUSES = 2.0
-"""Between two tracings there are so many times the seconds that one takes."""
+QUICK, PAUSES = 0.05, 2.0
+"""Seconds that tracing may take while something moves; between two are so many times as many."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,11 +33,16 @@ class LiveTracer:
         self._seconds = 0.0
         self._ended = 0.0
 
+    @property
+    def ready(self) -> bool:
+        """Whether tracing now would not hold up what moves."""
+        rested = time.monotonic() - self._ended >= PAUSES * self._seconds
+        return self._seconds <= QUICK and rested
+
     def follow(self, edit: LiveEdit, wanted: bool) -> Generator[Progress, None, Traced]:
         """Solve an edit; trace it if that is wanted and there is time."""
         field = yield from edit.solve()
-        rested = time.monotonic() - self._ended >= PAUSES * self._seconds
-        return self._traced(field) if wanted and rested else Traced(field, None)
+        return self._traced(field) if wanted and self.ready else Traced(field, None)
 
     def catch_up(self, field: CrossField) -> Generator[Progress, None, Traced]:
         """Trace a field that was left out."""

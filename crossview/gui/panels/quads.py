@@ -14,6 +14,7 @@ from PySide6.QtWidgets import (
     QLabel,
     QPushButton,
     QScrollArea,
+    QSizePolicy,
     QSpinBox,
     QStackedWidget,
     QToolButton,
@@ -56,6 +57,8 @@ class QuadsPanel(QScrollArea):
         for box in (self.count_box, self.length_box):
             box.setLocale(QLocale.c())
             box.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
+            # as wide as there is room: what the widest number needs is more than a dock has
+            box.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
             self.boxes.addWidget(box)
         self.boxes.setMaximumHeight(self.count_box.sizeHint().height())
         self.unit.currentIndexChanged.connect(self.boxes.setCurrentIndex)
@@ -76,6 +79,7 @@ class QuadsPanel(QScrollArea):
         self.said.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.facts: dict[str, QLabel] = {}
         self.histogram = Histogram()
+        self._filled: TriSurface | None = None
         self._lay_out()
         self._show(WindowState())
 
@@ -112,9 +116,11 @@ class QuadsPanel(QScrollArea):
         self._dot.setVisible(quads is not None)
         self.save_button.setVisible(quads is not None)
         if quads is None or made.layout is None or state.solution is None:
-            gone = state.meshes.quads is not None and state.document is not None
+            surface = None if state.document is None else state.document.surface
+            gone = surface is not None and surface is self._filled
             self.said.setText(STALE if gone else NOTHING)
             return
+        self._filled = state.solution.problem.surface
         facts = quad_facts(made.layout, quads, state.solution)
         self._dot.setPixmap(dot_icon(GOOD if facts.good else BAD).pixmap(DOT))
         self.said.setText(facts.verdict)

@@ -1,0 +1,254 @@
+"""From a case to quads in a file, and what happens where there can be none."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import pyvista as pv
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QApplication
+
+from crossview.case import Case
+from crossview.gallery import path_of
+from crossview.gui.panels.quads import COUNT, LENGTH, NOTHING, STALE
+from crossview.gui.state import WindowState
+from crossview.scene.colors import CROSS, MARK_WARNING, PATCHES, QUAD_EDGE, valence_color
+from tests.windowing import Hand, count_color
+
+BLUE = valence_color(3)
+
+
+@pytest.fixture
+def isotropic_plate(tmp_path: Path) -> str:
+    """The plate whose isotropic field misses two holes."""
+    path = tmp_path / "plate.json"
+    replace(Case.load(path_of("suboptimal-a")), method="isotropic").save(path)
+    return str(path)
+
+
+def offer(hand: Hand, label: str):
+    """The button of the message bar with this label."""
+    buttons = hand.window.centre.message_bar.action_buttons
+    return next(button for button in buttons if button.text() == label)
+
+
+def quads_of(path: Path) -> tuple[int, np.ndarray]:
+    lines = path.read_text().splitlines()
+    faces = [line.split()[1:] for line in lines if line.startswith("f ")]
+    assert all(len(face) == 4 for face in faces)
+    return sum(line.startswith("v ") for line in lines), np.array(faces, int)
+
+
+def test_sphere_to_six_patches_to_quads_to_a_file(hand: Hand, tmp_path: Path) -> None:
+    window, actions = hand.window, hand.window.actions_table.by_name
+    assert not actions["mesh"].isEnabled()
+    hand.open("sphere-cube")
+    assert not actions["save-quads"].isEnabled()
+    assert window.quads_panel.said.text() == NOTHING
+
+    # the separatrices are there, exact: twelve from corner to corner
+    assert len(hand.state.separatrices.valences) == 12
+    middle = hand.place((0.577, 0.0, 0.577 * 1.2247) / np.linalg.norm((0.577, 0.0, 0.707)))
+    assert middle is not None
+
+    # the layout: six patches in colours of which neighbours differ
+    window.layers_panel.toggle("layout")
+    hand.wait()
+    assert hand.state.made.layout.patches == 6
+    assert hand.state.made.layout.conforming
+    picture = hand.picture()
+    shown = [color for color in PATCHES if count_color(picture, color) > 200]
+    assert len(shown) >= 2
+    window.layers_panel.toggle("layout")
+
+    # about 1 500 quads
+    panel = window.quads_panel
+    panel.count_box.setValue(1500)
+    hand.key(Qt.Key.Key_F6)
+    hand.wait(lambda: hand.state.made.quads is not None)
+    quads = hand.state.made.quads
+    assert abs(quads.n_quads - 1500) < 75
+    assert hand.state.layers["quads"].visible
+    assert window.layers_panel.list.currentItem().text() == "Quads"
+    picture = hand.picture()
+    assert count_color(picture, QUAD_EDGE) > 2000
+    assert count_color(picture, CROSS) < 500
+    assert panel.facts["Irregular"].text() == "8 of valence 3, as imposed"
+    assert panel.facts["Euler"].text() == "2 of 2"
+    assert panel.facts["Patches"].text() == "6, conforming"
+    assert panel.facts["T-junctions"].text() == "0"
+    assert panel.said.text() == "All quads, irregular exactly where imposed."
+    assert panel.histogram.counts.sum() == quads.n_quads
+    assert panel.verticalScrollBar().isVisibleTo(panel)
+    assert panel.widget().width() <= panel.viewport().width()
+
+    # saved as they are, all four-sided
+    path = tmp_path / "cube.obj"
+    window.files.save_quads(path)
+    assert hand.state.message is None
+    vertices, faces = quads_of(path)
+    assert (vertices, len(faces)) == (quads.n_vertices, quads.n_quads)
+    assert (np.bincount(faces.ravel())[1:] == 3).sum() == 8
+    for suffix in (".vtk", ".ply", ".gltf", ".msh"):
+        window.files.save_quads(path.with_suffix(suffix))
+        assert path.with_suffix(suffix).stat().st_size > 1000
+    assert pv.read(path.with_suffix(".vtk")).n_cells == quads.n_quads
+    window.files.save_quads(path.with_suffix(".docx"))
+    assert ".docx" in hand.state.message.text
+
+    # other colours, from the layer's own box
+    editor = window.layers_panel.editors["quads"]
+    box = editor.findChild(type(panel.unit), "coloring")
+    box.setCurrentIndex(1)
+    box.activated.emit(1)
+    assert hand.state.layers["quads"].coloring == "patch"
+    assert sum(count_color(hand.picture(), color) > 100 for color in PATCHES) >= 2
+
+
+def test_quads_of_an_edge_length(hand: Hand) -> None:
+    hand.open("square")
+    panel = hand.window.quads_panel
+    assert panel.length_box.value() == pytest.approx(np.sqrt(1 / 5000), abs=1e-4)
+    panel.unit.setCurrentIndex(LENGTH)
+    panel.length_box.setValue(0.1)
+    panel.button.click()
+    hand.wait(lambda: hand.state.made.quads is not None)
+    assert hand.state.made.quads.n_quads == 100
+    assert panel.facts["Irregular"].text() == "none, as imposed"
+    assert panel.facts["Corners"].text() == "4 of quads at 1, as imposed"
+    panel.unit.setCurrentIndex(COUNT)
+    assert panel.options.edge_length is None
+
+
+def test_an_edit_takes_the_quads_away_and_undo_brings_them_back(hand: Hand) -> None:
+    hand.open("disk-4")
+    hand.trigger("mesh")
+    hand.wait(lambda: hand.state.made.quads is not None)
+    made, panel = hand.state.made, hand.window.quads_panel
+    start, end = hand.place_of(0), hand.place((0.45, 0.2, 0.0))
+    hand.drag(start, end)
+    hand.wait(lambda: hand.state.field is not made.of)
+    assert hand.state.made.quads is None  # at once, not only on release
+    assert count_color(hand.picture(), QUAD_EDGE) < 500
+    assert panel.said.text() == STALE
+    assert not hand.window.actions_table.by_name["save-quads"].isEnabled()
+    hand.release(end)
+    hand.wait(lambda: hand.state.solved)
+    assert hand.state.made.quads is None
+    assert hand.state.layers["quads"].visible  # to be seen again when they are made again
+    hand.trigger("mesh")
+    hand.wait(lambda: hand.state.made.quads is not None)
+    assert hand.state.made.quads is not made.quads
+
+
+def test_the_other_methods_keep_their_quads(hand: Hand) -> None:
+    hand.open("disk-4")
+    hand.trigger("mesh")
+    hand.wait(lambda: hand.state.made.quads is not None)
+    quads = hand.state.made.quads
+    hand.trigger("method-aligned")
+    hand.wait(lambda: hand.state.solved)
+    assert hand.state.made.quads is None
+    hand.trigger("method-isotropic")
+    hand.wait(lambda: hand.state.solved)
+    assert hand.state.made.quads is quads
+
+
+def test_separatrices_follow_a_drag(hand: Hand) -> None:
+    hand.open("disk-4")
+    exact = hand.state.separatrices
+    start, end = hand.place_of(0), hand.place((0.4, 0.35, 0.0))
+    seen = []
+
+    def watch(old: WindowState, new: WindowState) -> None:
+        if new.separatrices is not old.separatrices:
+            seen.append(new.separatrices)
+
+    hand.window.workspace.changed.connect(watch)
+    hand.drag(start, end)
+    hand.wait(lambda: hand.state.meshes.of is hand.state.field)  # in step when the mouse rests
+    followed = hand.state.separatrices
+    assert seen[-1] is followed
+    assert followed is not exact
+    starts = followed.points[followed.offsets[:-1]]
+    dragged = hand.state.base.surface.position(hand.state.trial.placed)
+    near = np.linalg.norm(starts - dragged, axis=1) < 0.1
+    assert np.count_nonzero(near) == 3
+    assert hand.shows(BLUE, hand.place(followed.points[len(followed.points) // 2]), line=True)
+    hand.release(end)
+    hand.wait(lambda: hand.state.made.settled)
+    hand.window.workspace.changed.disconnect(watch)
+    assert hand.state.separatrices is not followed
+
+    # hidden, they are not traced either
+    hand.window.layers_panel.toggle("separatrices")
+    before = hand.state.meshes
+    hand.drag(end, start)
+    hand.wait(lambda: hand.state.field is not before.of)
+    assert hand.state.meshes is before
+    hand.key(Qt.Key.Key_Escape)
+    hand.release(start)
+
+
+def test_a_field_that_misses_a_boundary_is_refused_and_one_click_mends_it(
+    hand: Hand, isotropic_plate: str
+) -> None:
+    hand.open(isotropic_plate)
+    assert len(hand.state.made.misaligned) == 2
+    places = [hand.place(place) for place in hand.state.made.misaligned]
+    assert any(hand.shows(MARK_WARNING, place, reach=9, line=True) for place in places)
+    assert hand.state.message is None  # drawn all the same, and nobody has asked for quads
+    hand.trigger("mesh")
+    hand.wait(lambda: hand.state.message is not None)
+    assert hand.state.message.text.startswith("the field misses 2 boundaries")
+    assert "\n" not in hand.state.message.text
+    assert hand.state.made.quads is None
+    assert hand.window.quads_panel.said.text() == NOTHING
+    offer(hand, "Solve anisotropic").click()
+    hand.wait(lambda: hand.state.made.quads is not None)
+    assert hand.state.message is None
+    assert hand.state.method == "anisotropic"
+    assert hand.state.made.quads.irregular == {5: 8}
+    assert not hand.shows(MARK_WARNING)
+    # undo: the isotropic field again, and none of its quads
+    hand.trigger("undo")
+    hand.wait(lambda: hand.state.solved)
+    assert hand.state.made.quads is None
+    assert len(hand.state.made.misaligned) == 2
+
+
+def test_the_layout_layer_says_why_there_is_none(hand: Hand, isotropic_plate: str) -> None:
+    hand.open(isotropic_plate)
+    hand.window.layers_panel.toggle("layout")
+    hand.wait(lambda: hand.state.message is not None)
+    labels = [b.text() for b in hand.window.centre.message_bar.action_buttons]
+    assert labels == ["Make valid", "Solve anisotropic"]
+    offer(hand, "Make valid").click()
+    hand.wait(lambda: hand.state.solved and hand.state.valid)
+    assert hand.state.message is None
+    assert hand.state.made.layout is not None
+    assert hand.state.made.quads is None  # only the layout was asked for
+
+
+def test_stop_while_quads_are_made(hand: Hand) -> None:
+    hand.open("disk-4")
+    hand.window.quads_panel.count_box.setValue(100_000)
+    stop = hand.window.actions_table.by_name["stop"]
+    stages = []
+
+    def stop_soon(old: WindowState, new: WindowState) -> None:
+        if new.progress is not None:
+            stages.append(new.progress.stage)
+            if new.progress.stage == "filling the patches":
+                hand.window.workspace.changed.disconnect(stop_soon)
+                stop.trigger()
+
+    hand.window.workspace.changed.connect(stop_soon)
+    hand.trigger("mesh")
+    hand.wait(lambda: hand.state.message is not None)
+    assert "choosing numbers of quads" in stages
+    assert hand.state.message.text.startswith("Stopped")
+    assert hand.state.made.quads is None
+    QApplication.processEvents()
+    assert hand.state.solved
