@@ -1,0 +1,116 @@
+"""The seamless map of a field in which separatrices meet the nodes they nearly meet."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.sparse import csc_array, vstack
+
+from solvers.aligned import IntegratedField
+from solvers.arrangement import LayoutError
+from solvers.features import Features
+from solvers.seamless import SeamlessFit
+from solvers.surface import TriSurface
+from solvers.tracing import Chart
+from solvers.triangulation import IntArray
+
+SPOILT = 0.03
+"""Distance of a map from what the field asks for beyond which separatrices are not joined."""
+
+
+class JoinedMap:
+    """The seamless map of a field while it is turned and joined.
+
+    Parameters
+    ----------
+    integrated : IntegratedField
+        The field.
+
+    Attributes
+    ----------
+    chart : Chart
+        The map as it is now.
+    turned : float
+        Angle that all crosses have been turned by, radians.
+    """
+
+    def __init__(self, integrated: IntegratedField) -> None:
+        self.integrated = integrated
+        self._integrability = integrated.aligned.integrability
+        self._fit = SeamlessFit(self._integrability, integrated.x)
+        self._rows: csc_array | None = None
+        self.turned = 0.0
+        self.chart = self._chart()
+
+    @property
+    def surface(self) -> TriSurface:
+        """What is mapped."""
+        return self.integrated.field.surface
+
+    @property
+    def may_turn(self) -> bool:
+        """Whether nothing fixes the direction of the crosses, and turned ones are as good."""
+        aspect = self.integrated.field.half_log_aspect
+        bound = bool(self.surface.boundary_loops) or len(self.features) > 0
+        return not bound and not aspect.any()
+
+    @property
+    def features(self) -> Features:
+        """The edges that crosses follow."""
+        return self._integrability.discretization.features
+
+    @property
+    def mended(self) -> int:
+        """Number of triangles made stiffer."""
+        return self._fit.mended
+
+    @property
+    def flipped(self) -> IntArray:
+        """Triangles turned over."""
+        return self._fit.map.flipped
+
+    def turn(self, angle: float) -> None:
+        """Turn all crosses."""
+        self.turned = angle
+        self.chart = self._chart()
+
+    def join(self, rows: csc_array) -> bool:
+        """Fit the map again so that also combinations of images vanish: of the first as many rows
+        as do not spoil it. Return whether it was.
+        """
+        before = self._fit
+        allowed = max(SPOILT, 2 * before.map.distance)
+        count = rows.shape[0]
+        while count:
+            more = rows[:count]
+            joined = more if self._rows is None else csc_array(vstack([self._rows, more]))
+            fit = before.joined(joined)
+            if len(fit.map.flipped) <= len(before.map.flipped) and fit.map.distance < allowed:
+                self._rows, self._fit = joined, fit
+                self.chart = self._chart()
+                return True
+            count //= 2
+        return False
+
+    def _chart(self) -> Chart:
+        images = self._fit.map.images @ np.array([1, 1j]) * np.exp(-1j * self.turned)
+        return Chart(self.surface.triangulation, images, self._integrability.quarter_turns)
+
+    def require_upright(self) -> None:
+        """Raise `LayoutError` if triangles are turned over."""
+        over = self.flipped
+        if len(over) == 0:
+            return
+        field = self.integrated.field
+        places = field.surface.positions([s.point for s in field.singularities])
+        where = ""
+        if len(places):
+            gaps = np.linalg.norm(field.surface.barycentres[over][:, None] - places, axis=2)
+            near = np.unique(gaps.argmin(axis=1)) + 1
+            where = "near " + ", ".join(f"singularity {n}" for n in near[:4])
+        which = "1 triangle is" if len(over) == 1 else f"{len(over)} triangles are"
+        raise LayoutError(
+            f"{which} turned over in the seamless map",
+            where,
+            "move these singularities apart or refine more around them",
+            faces=over,
+        )
