@@ -35,6 +35,9 @@ WORST = 0.1
 PATIENCE, LITTLE = 5, 1e-4
 """Rounds without as much improvement, after which no more are tried."""
 
+ON_RAIL = 1e-9
+"""Distance from a rail, in diagonals of the surface, that counts as none."""
+
 RETREATS = 10
 """How often vertices around spoilt quads are put back before a round is given up."""
 
@@ -43,7 +46,6 @@ def smooth(
     mesh: QuadMesh,
     *,
     curves: Sequence[IntArray] = (),
-    on_curve: IntArray | None = None,
     rounds: int = ROUNDS,
 ) -> QuadMesh:
     """Return a mesh with quads more like rectangles, none worse than the worst before.
@@ -58,8 +60,7 @@ def smooth(
         What to smooth.
     curves : sequence of (k,) int array, optional
         Chains of surface vertices joined by edges; the first again at the end of a closed one.
-    on_curve : (n,) int array, optional
-        The curve each vertex of the mesh lies on, or -1.
+        Edges of the mesh that lie on one stay on it.
     rounds : int, optional
         How often all vertices move.
 
@@ -67,14 +68,14 @@ def smooth(
     -----
     The local step is shape matching (Bouaziz et al. 2012, "Shape-Up").
     """
-    surface = mesh.surface
+    rails = boundary_rails(mesh.surface)
     rail, held = mesh.boundary_loop.copy(), mesh.fixed.copy()
-    rails = boundary_rails(surface)
-    if on_curve is not None:
-        # Where a curve meets the boundary, its vertex is held by both.
-        held |= (rail >= 0) & (on_curve >= 0)
-        rail = np.where((rail < 0) & (on_curve >= 0), on_curve + len(rails), rail)
-        rails += [Rail(surface, curve) for curve in curves]
+    for curve in curves:
+        rails.append(Rail(mesh.surface, curve))
+        on = _run_along(mesh, rails[-1])
+        # What lies on two curves, or on one and the boundary, is held by both.
+        held[on[rail[on] >= 0]] = True
+        rail[on] = np.where(rail[on] >= 0, rail[on], len(rails) - 1)
     sliding = Sliding(replace(mesh, fixed=held), rails, rail)
     start = sliding.start()
     least = float(mesh.scaled_jacobian.min(initial=POOR))
@@ -89,6 +90,13 @@ def smooth(
         on_corners = on_corners[~guilty] if guilty.any() else on_corners[:0]
         snapped = start.put(on_corners, snapped.at(on_corners))
     return replace(mesh, vertices=found.vertices, faces=found.faces, barycentric=found.weights)
+
+
+def _run_along(mesh: QuadMesh, rail: Rail) -> IntArray:
+    """Return the vertices of the edges of a mesh that lie on a rail."""
+    gap = np.linalg.norm(rail.positions(rail.nearest(mesh.vertices)) - mesh.vertices, axis=1)
+    near = gap < ON_RAIL * mesh.surface.diagonal
+    return np.unique(mesh.edges[near[mesh.edges].all(axis=1)])
 
 
 def _smoothed(sliding: Sliding, places: Places, held: IntArray, rounds: int) -> Places:

@@ -9,6 +9,7 @@ from solvers.primitives import BUILTIN
 from solvers.quad_smoothing import rectangles, smooth
 from solvers.quadmesh import QuadMesh
 from solvers.rails import Rail, boundary_rails
+from solvers.surface import TriSurface
 from tests.solvers.quad_grids import GRIDS, annulus, lattice, on_surface, sphere, square, torus
 
 
@@ -136,23 +137,41 @@ def test_sharp_corners_of_the_boundary_get_a_vertex(shift: float) -> None:
     assert np.sin(np.pi / 3) > smoothed.scaled_jacobian.min() > 0.7
 
 
-def test_vertices_of_a_curve_slide_along_it() -> None:
+def test_edges_on_a_curve_stay_on_it() -> None:
+    """A straight line through the square, another across it, which the mesh does not follow."""
     mesh = square(16, noise=0.3)
     surface = mesh.surface
-    on = np.flatnonzero(np.abs(surface.vertices[:, 0]) < 1e-9)
-    chain = on[np.argsort(surface.vertices[on, 1])]
+    upright, level = (
+        on[np.argsort(surface.vertices[on, 1 - axis])]
+        for axis in (0, 1)
+        for on in [np.flatnonzero(np.abs(surface.vertices[:, axis]) < 1e-9)]
+    )
     middle = np.arange(17) * 17 + 8
     places = mesh.vertices.copy()
     places[middle, 0] = 0
     mesh = on_surface(surface, places, mesh.quads, np.flatnonzero(mesh.fixed).tolist())
-    on_curve = np.full(mesh.n_vertices, -1)
-    on_curve[middle] = 0
-    free = smooth(mesh)
-    held = smooth(mesh, curves=[chain], on_curve=on_curve)
+    free, held = smooth(mesh), smooth(mesh, curves=[upright, level])
     assert np.abs(free.vertices[middle, 0]).max() > 1e-3
     assert np.abs(held.vertices[middle, 0]).max() < 1e-14
     assert np.ptp(held.vertices[middle, 1] - mesh.vertices[middle, 1]) > 1e-3
+    assert (held.vertices[middle[[0, -1]]] == mesh.vertices[middle[[0, -1]]]).all()
     assert held.scaled_jacobian.min() > 0.9
+
+
+def test_no_edge_is_drawn_over_a_crease() -> None:
+    """A square bent along its middle: vertices on the crease stay there, sharp."""
+    flat = square(12, noise=0.3)
+    x, y, _ = flat.surface.vertices.T
+    surface = TriSurface(np.stack([x, y, -np.abs(x)], axis=1), flat.surface.faces)
+    middle = np.arange(13) * 13 + 6
+    places = flat.vertices.copy()
+    places[middle, 0] = 0
+    places[:, 2] = -np.abs(places[:, 0])
+    mesh = on_surface(surface, places, flat.quads, np.flatnonzero(flat.fixed).tolist())
+    on = np.flatnonzero(np.abs(x) < 1e-9)
+    smoothed = smooth(mesh, curves=[on[np.argsort(y[on])]])
+    assert np.abs(smoothed.vertices[middle, 0]).max() < 1e-14
+    assert smoothed.scaled_jacobian.min() > max(0.9, mesh.scaled_jacobian.min())
 
 
 def test_a_rail_knows_its_places() -> None:
