@@ -23,6 +23,9 @@ from solvers.triangulation import FloatArray, IntArray, next_halfedge
 FLAT = np.radians(160)
 """Largest angle of a triangle that is next to flat."""
 
+ON_SIDE = 1e-7
+"""Weight of a corner of a triangle below which a place lies on the side opposite."""
+
 SHARP_TURN = np.pi / 4 * (1 + TIE)
 """By how much a curve may turn at a vertex and still go on, radians."""
 
@@ -131,6 +134,23 @@ class Features:
         for i, curve in enumerate(self.curves):
             number[curve.members] = i
         return number
+
+    def curves_at(self, faces: IntArray, barycentric: FloatArray) -> IntArray:
+        """Return the curve that places in triangles lie on, or -1.
+
+        Parameters
+        ----------
+        faces : (n,) int array
+            The triangles.
+        barycentric : (n, 3) float array
+            Weights of their corners.
+        """
+        curve = np.full(len(self.surface.edges), -1, dtype=np.int64)
+        curve[self.edges] = self.curve_of
+        # A side is opposite the corner before it.
+        on_side = barycentric[:, [2, 0, 1]] < ON_SIDE
+        found = np.where(on_side, curve[self.surface.face_edges[faces]], -1)
+        return np.asarray(found.max(axis=1))
 
     def _links(self) -> tuple[IntArray, IntArray]:
         """Return pairs (l, 2) of edges that follow each other, and the vertices between them."""
