@@ -9,6 +9,7 @@ from pathlib import Path
 from cyclopts import App, CycloptsError
 
 from crossview import __version__
+from crossview.cli.complete import complete
 from crossview.cli.info import info
 from crossview.cli.make_valid import make_valid
 from crossview.cli.natural import natural
@@ -28,7 +29,7 @@ app = App(
     suppress_keyboard_interrupt=False,
 )
 app.default(window)
-for command in (info, solve, render, gallery, natural, make_valid):
+for command in (info, solve, render, gallery, natural, complete, make_valid):
     app.command(command)
 
 

@@ -1,0 +1,46 @@
+"""crossview complete: a case with the singularities that its index budget lacks."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from crossview.cli.options import Flag, Output, chosen_case
+from crossview.cli.terminal import say, watch
+from crossview.problem import Problem
+from solvers.completion import missing_singularities
+from solvers.isotropic import IsotropicSolver
+
+
+def complete(
+    case: str,
+    /,
+    *,
+    output: Output,
+    component: str | None = None,
+    repair: Flag = False,
+    quiet: Flag = False,
+) -> None:
+    """Add the valences 3 or 5 that the index budget lacks, where they even out the sizes most.
+
+    Parameters
+    ----------
+    case
+        A case, the name of a gallery case or a surface.
+    output
+        The new case file.
+    component
+        Of a surface in several pieces: largest or a number (0 is the largest).
+    repair
+        Also mend what cannot be mended without changing the surface.
+    quiet
+        Show neither progress nor summary.
+    """
+    found = chosen_case(case, component=component, repair=repair)
+    problem = Problem.from_case(found)
+    solver = IsotropicSolver(problem.surface, problem.corners)
+    added = watch(missing_singularities(solver, problem.singularities), quiet)
+    completed = replace(problem, singularities=(*problem.singularities, *added))
+    completed.to_case(found.surface, found.title).save(output)
+    if not quiet:
+        count = f"added {len(added)} of valence {added[0].valence}" if added else ""
+        say(f"{count or 'nothing is missing'}; wrote {output}")

@@ -1,0 +1,48 @@
+"""crossview complete: the indices that are missing, placed."""
+
+import json
+
+import numpy as np
+import pytest
+
+
+def test_a_bare_surface_is_completed_and_solved(crossview, tmp_path):
+    new = tmp_path / "sphere.json"
+    ran = crossview("complete", "sphere", "-o", new)
+    assert (ran.status, ran.err) == (0, "")
+    assert ran.out == f"added 8 of valence 3; wrote {new}\n"
+    report = crossview("solve", new, "-o", tmp_path / "out", "--json").json
+    assert report["index_sum"] == 8
+    assert report["isotropically_valid"]
+
+
+def test_what_is_there_stays_and_an_annulus_is_made_valid_after(crossview, case_file, tmp_path):
+    case = case_file({"builtin": "annulus"}, [((0.7, 0, 0), 6)])
+    new, valid = tmp_path / "new.json", tmp_path / "valid.json"
+    assert crossview("complete", case, "-o", new).status == 0
+    placed = json.loads(new.read_text())["singularities"]
+    assert [s["valence"] for s in placed] == [6, 3, 3]
+    np.testing.assert_allclose(placed[0]["position"], [0.7, 0, 0], atol=1e-9)
+    assert crossview("make-valid", new, "-o", valid, "--quiet").status == 0
+    report = crossview("solve", valid, "-o", tmp_path / "out", "--json").json
+    assert report["isotropically_valid"]
+
+
+def test_a_complete_case_is_written_as_it_is(crossview, tmp_path):
+    new = tmp_path / "same.json"
+    ran = crossview("complete", "disk-4", "-o", new)
+    assert ran.out == f"nothing is missing; wrote {new}\n"
+    assert len(json.loads(new.read_text())["singularities"]) == 4
+
+
+@pytest.mark.parametrize(
+    ("name", "count"),
+    [("plate_holes.stl", 32), ("skull_low_resolution.obj", 8), ("hand_lowres.obj", 4)],
+)
+def test_a_real_surface_is_completed(crossview, real_surface, tmp_path, name, count):
+    new = tmp_path / "new.json"
+    ran = crossview("complete", real_surface(name), "-o", new, "--quiet")
+    assert (ran.status, ran.err) == (0, "")
+    assert len(json.loads(new.read_text())["singularities"]) == count
+    solved = crossview("solve", new, "-o", tmp_path / "out", "--json")
+    assert solved.status == 0, solved.err
