@@ -74,7 +74,7 @@ def test_sphere_to_six_patches_to_quads_to_a_file(hand: Hand, tmp_path: Path) ->
     picture = hand.picture()
     assert count_color(picture, QUAD_EDGE) > 2000
     assert count_color(picture, CROSS) < 500
-    assert panel.facts["Irregular"].text() == "8 of valence 3, as imposed"
+    assert panel.facts["Irregular"].text() == "valence 3: 8 of 8"
     assert panel.facts["Euler"].text() == "2 of 2"
     assert panel.facts["Patches"].text() == "6, conforming"
     assert panel.facts["T-junctions"].text() == "0"
@@ -115,8 +115,8 @@ def test_quads_of_an_edge_length(hand: Hand) -> None:
     panel.button.click()
     hand.wait(lambda: hand.state.made.quads is not None)
     assert hand.state.made.quads.n_quads == 100
-    assert panel.facts["Irregular"].text() == "none, as imposed"
-    assert panel.facts["Corners"].text() == "4 of quads at 1, as imposed"
+    assert panel.facts["Irregular"].text() == "none"
+    assert panel.facts["Corners"].text() == "1 quad: 4 of 4"
     panel.unit.setCurrentIndex(COUNT)
     assert panel.options.edge_length is None
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from crossview.gui.panels.texts import MINUS, count, grouped
@@ -53,8 +53,8 @@ def quad_facts(layout: QuadLayout, mesh: QuadMesh, solution: Solution) -> QuadFa
     rows = {
         "Vertices": grouped(mesh.n_vertices),
         "Quads": grouped(mesh.n_quads),
-        "Irregular": _beside(mesh.irregular, wanted, "valence"),
-        "Corners": _beside(mesh.corners, corners, "quads at"),
+        "Irregular": _beside(mesh.irregular, wanted, lambda n: f"valence {n}"),
+        "Corners": _beside(mesh.corners, corners, lambda n: count(n, "quad")),
         "Euler": f"{mesh.euler_characteristic} of {euler}".replace("-", MINUS),
         "Scaled Jac.": f"min {worst:.2f}, mean {float(quality.mean()):.3f}".replace("-", MINUS),
         "Patches": f"{grouped(layout.patches)}, {'' if layout.conforming else 'not '}conforming",
@@ -64,11 +64,9 @@ def quad_facts(layout: QuadLayout, mesh: QuadMesh, solution: Solution) -> QuadFa
     return QuadFacts(good, verdict, rows)
 
 
-def _beside(found: Mapping[int, int], wanted: Mapping[int, int], noun: str) -> str:
-    """Return a line per kind: how many there are, and how many were imposed if that differs."""
-    lines = []
-    for kind in sorted({*found, *wanted}):
-        there, imposed = found.get(kind, 0), wanted.get(kind, 0)
-        beside = "as imposed" if there == imposed else f"{imposed} imposed"
-        lines.append(f"{there} of {noun} {kind}, {beside}")
-    return "\n".join(lines) or "none, as imposed"
+def _beside(found: Mapping[int, int], wanted: Mapping[int, int], kind: Callable[[int], str]) -> str:
+    """Return a line per kind of vertex: how many there are of how many imposed."""
+    lines = [
+        f"{kind(n)}: {found.get(n, 0)} of {wanted.get(n, 0)}" for n in sorted({*found, *wanted})
+    ]
+    return "\n".join(lines) or "none"
