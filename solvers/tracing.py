@@ -414,8 +414,10 @@ class _Walk:
     ) -> tuple[IntArray, FloatArray]:
         """Lead traces that the next cross sends back along the side they came over."""
         after = (side + 1) % 3
-        outwards = seen[rows, side].imag <= seen[rows, after].imag
-        forwards = seen[rows, after].real > seen[rows, side].real
+        along = seen[rows, after] - seen[rows, side]
+        # A trace along the side itself may come in either way.
+        outwards = along.imag > 1e-9 * np.abs(along)
+        forwards = along.real > 0
         side_out = np.where(outwards, np.where(forwards, after, (side + 2) % 3), side_out)
         out = np.where(outwards, np.where(forwards, GRAZING, 1 - GRAZING), out)
         return side_out, out
