@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
+from pathlib import Path
+from typing import Any
 
 import pytest
+import pyvista as pv
 
 from crossview.case import Case
 from crossview.problem import Problem
@@ -27,6 +31,26 @@ REAL = {
 }
 
 
+# closed without handles, or with one boundary, any configuration that meets its budget is valid
+ALWAYS_VALID = [name for name, (genus, loops, _) in REAL.items() if genus == 0 and loops < 2]
+
+
+def far_case(path: Path, method: str = "isotropic") -> dict[str, Any]:
+    """A case whose index budget is met by singularities far apart."""
+    problem = Problem.from_case(Case(str(path)))
+    surface = problem.surface
+    missing = 4 * surface.euler_characteristic - sum(problem.chosen_corners.values())
+    places = run(far_points(surface, (), abs(missing)))
+    return {
+        "surface": str(path),
+        "method": method,
+        "singularities": [
+            {"position": surface.position(place).tolist(), "valence": 3 if missing > 0 else 5}
+            for place in places
+        ],
+    }
+
+
 @pytest.mark.parametrize("name", REAL)
 def test_a_real_surface_is_described_and_solved(crossview, real_surface, tmp_path, name):
     genus, loops, required = REAL[name]
@@ -35,22 +59,9 @@ def test_a_real_surface_is_described_and_solved(crossview, real_surface, tmp_pat
     (piece,) = found["components"]
     assert found["problems"] == []
     assert (piece["genus"], piece["boundary_loops"]) == (genus, loops)
-    missing = piece["index_budget"]["missing"]
     assert piece["index_budget"]["required"] == required
 
-    problem = Problem.from_case(Case(str(path)))
-    places = run(far_points(problem.surface, (), abs(missing)))
-    case = {
-        "surface": str(path),
-        "singularities": [
-            {
-                "position": problem.surface.position(place).tolist(),
-                "valence": 3 if missing > 0 else 5,
-            }
-            for place in places
-        ],
-    }
-    (tmp_path / "case.json").write_text(json.dumps(case))
+    (tmp_path / "case.json").write_text(json.dumps(far_case(path)))
     ran = crossview("solve", tmp_path / "case.json", "-o", tmp_path / "out", "--json")
     assert ran.status == 0, ran.err
     report = ran.json
@@ -59,3 +70,29 @@ def test_a_real_surface_is_described_and_solved(crossview, real_surface, tmp_pat
     assert len(report["boundary_misalignment_degrees"]) == loops
     assert report["max_closing_error"] < 1e-9
     assert report["residual"] < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("name", "method"),
+    [
+        *((name, "isotropic") for name in ALWAYS_VALID),
+        ("gen_annulus.obj", "isotropic"),
+        ("skull_low_resolution.obj", "anisotropic"),
+    ],
+)
+def test_a_real_surface_has_quads(crossview, real_surface, tmp_path, name, method):
+    case = far_case(real_surface(name), method)
+    (tmp_path / "case.json").write_text(json.dumps(case))
+    options = ["--quads", "--target-quads", "3000", "--json"]
+    ran = crossview("solve", tmp_path / "case.json", "-o", tmp_path / "out", *options)
+    assert ran.status == 0, ran.err
+    quads = ran.json["quads"]
+    imposed = Counter(str(s["valence"]) for s in case["singularities"])
+    assert quads["irregular"] == imposed
+    genus, loops, _ = REAL[name]
+    assert quads["euler_characteristic"] == 2 - 2 * genus - loops
+    assert quads["inverted"] == 0
+    assert quads["mean_scaled_jacobian"] > 0.9
+    written = pv.read(tmp_path / "out" / "quads.vtk")
+    assert written.n_cells == quads["quads"]
+    assert quads["max_distance_to_surface"] < 1e-9 * written.length
