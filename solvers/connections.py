@@ -7,12 +7,15 @@ turned as a whole, it is turned to where most neighbours lie on common lines.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+
 import numpy as np
 from scipy.sparse import coo_array, csc_array
 
 from solvers.crossings import Crossings
-from solvers.tracing import AXES, QUARTER, ComplexArray, Traces
-from solvers.triangulation import FloatArray, IntArray, wrap
+from solvers.tracing import AXES, QUARTER, Chart, Chords, ComplexArray, Node, Traces
+from solvers.triangulation import FloatArray, IntArray, next_halfedge, wrap
 
 NEAR = 0.02
 """Nodes this much off a line, of its length, are put on it, if the mesh does not resolve that."""
@@ -24,13 +27,68 @@ ALIKE = np.radians(0.5)
 """Spread of the directions between nodes that count as one when a turn is chosen."""
 
 
+def with_rims(traces: Traces, nodes: Sequence[Node], loops: Sequence[IntArray]) -> Traces:
+    """Return the traces, and further ones along the boundary from corners that point inwards.
+
+    Traces that miss such a corner cross them at the boundary.
+
+    Parameters
+    ----------
+    traces : Traces
+        From the nodes.
+    nodes : sequence of Node
+        Some of them corners.
+    loops : sequence of (k,) int array
+        Halfedges of the boundary loops.
+    """
+    chart = traces.chart
+    tails = [chart.triangulation.tail[loop] for loop in loops]
+    reentrant = {node.vertex for node in nodes if not node.inner and node.quads > 2}
+    pieces, offsets = [traces.chords], list(traces.offsets)
+    for loop, tail in zip(loops, tails, strict=True):
+        for at in np.flatnonzero(np.isin(tail, list(reentrant))):
+            for backwards in (False, True):
+                along = np.roll(loop[::-1], at) if backwards else np.roll(loop, -at)
+                piece = _rim(chart, along, backwards, len(offsets) - 1)
+                pieces.append(piece)
+                offsets.append(offsets[-1] + len(piece))
+    columns = zip(*(vars(piece).values() for piece in pieces), strict=True)
+    chords = Chords(*(np.concatenate(column) for column in columns))
+    return replace(traces, chords=chords, offsets=np.array(offsets))
+
+
+def _rim(chart: Chart, loop: IntArray, backwards: bool, number: int) -> Chords:
+    """Return the chords along boundary halfedges, as far as a typical edge is long."""
+    length = np.abs(chart.images.reshape(-1)[loop])
+    ends = np.cumsum(length)
+    n = int(np.searchsorted(ends, chart.edge_length)) + 1
+    loop, ends, length = loop[:n], ends[:n], length[:n]
+    axis = np.rint(np.angle(chart.images.reshape(-1)[loop]) / QUARTER).astype(np.int64)
+    tail, head = loop % 3, next_halfedge(loop) % 3
+    start, end = (head, tail) if backwards else (tail, head)
+    zero, corner = np.zeros(len(loop)), np.ones(len(loop), dtype=bool)
+    return Chords(
+        np.full(len(loop), number),
+        loop // 3,
+        (axis + 2 * backwards) % 4,
+        start,
+        zero,
+        corner,
+        end,
+        zero,
+        corner,
+        ends - length,
+        ends,
+    )
+
+
 def passing(traces: Traces, crossings: Crossings, n_nodes: int) -> IntArray:
     """Return the first node that each trace passes too closely.
 
     Parameters
     ----------
     traces, crossings
-        The traces and where they cross.
+        The traces, those of `with_rims` too, and where they cross.
     n_nodes : int
         Number of nodes they leave.
 
@@ -48,6 +106,7 @@ def passing(traces: Traces, crossings: Crossings, n_nodes: int) -> IntArray:
     # In the strip around a trace there are this many nodes by accident.
     accident = 2 * at[:, 0] * at[:, 1] * n_nodes / chart.area
     close = (at[:, 1] < np.minimum(NEAR * at[:, 0], chart.edge_length)) & (accident < ACCIDENT)
+    close &= trace[:, 0] < len(traces.ends)
     order = np.flatnonzero(close)[np.lexsort((at[close, 0], trace[close, 0]))]
     first = order[np.unique(trace[order, 0], return_index=True)[1]]
     return chord[first[np.argsort(accident[first], kind="stable")]]
@@ -100,7 +159,7 @@ def _corner_steps(traces: Traces, last: int) -> tuple[IntArray, ComplexArray]:
     """
     first = int(traces.offsets[traces.chords.trace[last]])
     chords = traces.chords[np.arange(first, last)]
-    start, end = chords.side_in, (chords.side_out + 1) % 3
+    start, end = chords.side_in, (chords.side_out + ~chords.corner_out) % 3
     forward, backward = end == (start + 1) % 3, start == (end + 1) % 3
     along = AXES[chords.axis].conj()
     halfedge = np.concatenate(

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from functools import cached_property
 
 import numpy as np
-from scipy.sparse import coo_array
+from scipy.sparse import coo_array, csc_array
 from scipy.sparse.csgraph import dijkstra
 
 from solvers.arrangement import (
@@ -18,13 +18,12 @@ from solvers.arrangement import (
     left_of,
     stops,
 )
-from solvers.connections import passing
+from solvers.connections import conditions, passing, with_rims
 from solvers.crossings import crossings
 from solvers.features import Features
 from solvers.joined_map import JoinedMap
 from solvers.separatrices import Separatrices, as_curves
 from solvers.tracing import Chart, Node, node_at, starts_at, trace
-from solvers.triangulation import IntArray
 
 EXACT = 1e-6
 """How far beside a node a trace meets it, in typical edges of the map."""
@@ -80,10 +79,11 @@ class Drawing:
                 return stopped
             longest /= 2
 
-    @property
-    def passing(self) -> IntArray:
-        """Which traces pass nodes too closely, as `connections.passing`."""
-        return passing(self.traces, self.crossings, len(self._nodes))
+    def offsets(self) -> csc_array:
+        """Return how far nodes that traces pass too closely are off them, as rows of the map."""
+        rimmed = with_rims(self.traces, self._nodes, boundary_halfedges(self._map.surface))
+        found = passing(rimmed, crossings(rimmed.chart, rimmed.chords), len(self._nodes))
+        return conditions(rimmed, found, self._map.turned)
 
     def again(self, longest: float | None = None) -> Drawing:
         """Return the same in the map as it is now, perhaps with longer traces."""

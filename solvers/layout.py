@@ -10,7 +10,7 @@ import numpy as np
 
 from solvers.aligned import IntegratedField
 from solvers.arrangement import Arrangement, LayoutError
-from solvers.connections import best_turn, conditions
+from solvers.connections import best_turn
 from solvers.drawing import LONGEST, Drawing, feature_nodes
 from solvers.joined_map import JoinedMap
 from solvers.patches import PatchMesh, sampled
@@ -126,9 +126,8 @@ def quad_layout(integrated: IntegratedField) -> Generator[Progress, None, QuadLa
         map_.turn(best_turn(drawing.traces, drawing.crossings))
         drawing = drawing.again()
     for _ in range(JOININGS):
-        found = drawing.passing
         yield Progress("joining separatrices", 0.6)
-        if not len(found) or not map_.join(conditions(drawing.traces, found, map_.turned)):
+        if not map_.join(drawing.offsets()):
             break
         drawing = drawing.again()
     map_.require_upright()
