@@ -39,7 +39,7 @@ from crossview.scene.marks import INKS, MARK_SIZE, RIM, STROKES, marks_of
 from crossview.scene.quad_geometry import QuadGeometry
 from crossview.scene.quads import irregular_radius
 from crossview.scene.scalars import SCALARS, bar_texts, shown_scalar
-from crossview.scene.separatrices import separatrix_color
+from crossview.scene.separatrices import curve_height, separatrix_color
 from crossview.scene.singularities import DISC_PAINTS, DISC_PARTS, marker_radius
 from crossview.scene.style import TOWARDS, WIDTH
 
@@ -134,7 +134,7 @@ def _draw_separatrices(sheet: Sheet, view: SceneView) -> None:
     if not settings.visible or curves is None:
         return
     segments, valences = curves.points[curves.segments], curves.segment_valences
-    width, towards = WIDTH["separatrices halo"] * settings.size, TOWARDS["separatrices"]
+    width, towards = WIDTH["separatrices halo"] * settings.size, curve_height(view, "separatrices")
     sheet.lines(segments, CUT_HALO, width, towards, settings.opacity, round_ends=True)
     for valence in np.unique(valences):
         color, width = separatrix_color(int(valence)), WIDTH["separatrices"] * settings.size

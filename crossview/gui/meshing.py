@@ -130,7 +130,7 @@ class Meshing:
             return mend
 
         offers = (
-            ("make-valid", "Make valid", self._make_valid),
+            ("valid", "Make valid", self._make_valid),
             ("anisotropic", "Solve anisotropic", self._solve_anisotropic),
         )
         return tuple(

@@ -26,7 +26,6 @@ class MeshActor:
     """
 
     def __init__(self, plotter: pv.BasePlotter, name: str) -> None:
-        towards = TOWARDS[name]
         self._plotter = plotter
         self.mesh = pv.PolyData()
         self.mapper = vtkPolyDataMapper()
@@ -34,14 +33,18 @@ class MeshActor:
         self.mapper.ScalarVisibilityOff()
         # Switched on once for the process; each mapper then adds its own offset.
         vtkMapper.SetResolveCoincidentTopologyToPolygonOffset()
-        self.mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, -towards)
-        self.mapper.SetRelativeCoincidentTopologyLineOffsetParameters(0.0, -towards)
-        self.mapper.SetRelativeCoincidentTopologyPointOffsetParameter(-towards)
+        self.lift(TOWARDS[name])
         self.actor = vtkActor()
         self.actor.SetMapper(self.mapper)
         self.actor.PickableOff()
         self.property = self.actor.GetProperty()
         plotter.add_actor(self.actor, name=name, reset_camera=False, render=False, pickable=False)
+
+    def lift(self, towards: float) -> None:
+        """Draw it nearer to the eye than it is; see `style.TOWARDS`."""
+        self.mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, -towards)
+        self.mapper.SetRelativeCoincidentTopologyLineOffsetParameters(0.0, -towards)
+        self.mapper.SetRelativeCoincidentTopologyPointOffsetParameter(-towards)
 
     @property
     def visible(self) -> bool:

@@ -9,7 +9,7 @@ from crossview.scene.actors import MeshActor, set_cell_colors
 from crossview.scene.colors import CUT_HALO, SEPARATRIX, valence_color
 from crossview.scene.geometry import Triangles
 from crossview.scene.overlay import bytes_of
-from crossview.scene.style import WIDTH
+from crossview.scene.style import TOWARDS, WIDTH
 from crossview.scene.values import Curves
 from crossview.scene.view import SceneView
 from crossview.scene.watch import Watch
@@ -36,6 +36,7 @@ class SeparatricesLayer:
         if self._watch.changed("curves", curves):
             self._replace(curves)
         for actor, name in ((self._halo, "separatrices halo"), (self._lines, "separatrices")):
+            actor.lift(curve_height(view, name))
             actor.property.SetOpacity(settings.opacity)
             actor.property.SetLineWidth(WIDTH[name] * settings.size * self._pixel_ratio)
             actor.visible = True
@@ -53,6 +54,11 @@ class SeparatricesLayer:
             valences, which = np.unique(curves.segment_valences, return_inverse=True)
             colors = bytes_of([separatrix_color(int(n)) for n in valences])
             set_cell_colors(self._lines.mesh, self._lines.mapper, colors[which])
+
+
+def curve_height(view: SceneView, name: str) -> float:
+    """Return how far curves on the surface are lifted: above quads that cut through it, too."""
+    return TOWARDS[name] + (TOWARDS["curves on quads"] if view.cover == "quads" else 0.0)
 
 
 def separatrix_color(valence: int) -> str:

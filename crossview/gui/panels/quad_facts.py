@@ -56,7 +56,7 @@ def quad_facts(layout: QuadLayout, mesh: QuadMesh, solution: Solution) -> QuadFa
         "Irregular": _beside(mesh.irregular, wanted, lambda n: f"valence {n}"),
         "Corners": _beside(mesh.corners, corners, lambda n: count(n, "quad")),
         "Euler": f"{mesh.euler_characteristic} of {euler}".replace("-", MINUS),
-        "Scaled Jac.": f"min {worst:.2f}, mean {float(quality.mean()):.3f}".replace("-", MINUS),
+        "Scaled Jac.": f"min {worst:.2f}\nmean {float(quality.mean()):.3f}".replace("-", MINUS),
         "Patches": f"{grouped(layout.patches)}, {'' if layout.conforming else 'not '}conforming",
         "T-junctions": grouped(len(layout.t_junctions)),
         "Flips": grouped(layout.flips) + (f", {layout.mended} mended" if layout.mended else ""),
