@@ -190,7 +190,8 @@ def mesh(layout: QuadLayout, options: MeshOptions) -> Generator[Progress, None, 
     filled = fill(layout, chosen.counts)
     if options.smooth:
         yield Progress("smoothing", 0.5)
-        filled = smooth(filled)
+        features = layout.integrated.aligned.integrability.discretization.features
+        filled = smooth(filled, curves=[curve.vertices for curve in features.curves])
     yield Progress("checking the quads", 0.9)
     filled.check()
     return filled
@@ -231,18 +232,30 @@ def _require_possible(solution: Solution) -> None:
     loops, _ = misaligned_boundaries(solution)
     if len(loops):
         misses = "a boundary" if len(loops) == 1 else f"{len(loops)} boundaries"
-        worst = np.degrees(np.abs(solution.field.boundary_misalignment).max())
-        raise LayoutError(f"the field misses {misses}, by up to {worst:.3g} degrees", "", REMEDY)
+        raise _misses(misses, solution.field.boundary_misalignment)
     if solution.verdict.status == "impossible":
-        raise LayoutError(f"no quads: {solution.verdict.reason.rstrip('.')}", "", "")
+        raise LayoutError(f"no quads: {solution.verdict.reason.rstrip('.')}")
+    off = np.abs(np.degrees(solution.field.feature_misalignment))
+    missed = np.count_nonzero(off > solution.problem.options.tolerance_degrees)
+    if missed:
+        misses = "a feature curve" if missed == 1 else f"{missed} feature curves"
+        raise _misses(misses, solution.field.feature_misalignment)
+
+
+def _misses(what: str, angles: FloatArray) -> LayoutError:
+    worst = np.degrees(np.abs(angles).max())
+    return LayoutError(f"the field misses {what}, by up to {worst:.3g} degrees", "", REMEDY)
 
 
 def _integrated(solution: Solution) -> IntegratedField:
-    """The field in a form that has a map; an isotropic one is solved again without edge flips."""
+    """The field in a form that has a map; an isotropic one may have to be solved again."""
     if solution.integrated is not None:
         return solution.integrated
-    problem = solution.problem
-    solver = IsotropicSolver(solution.surface, problem.chosen_corners, flips=False)
+    solver = solution.solver
+    if solver.discretization.delaunay.n_flips:  # the map lives on the surface's own triangles
+        corners = solution.problem.chosen_corners
+        features = solution.features
+        solver = IsotropicSolver(solution.surface, corners, flips=False, features=features)
     aligned = aligned_field(solver, solution.singularities)
     return IntegratedField(aligned, aligned.start)
 

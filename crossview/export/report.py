@@ -79,12 +79,13 @@ def report(solution: Solution, quads: QuadMesh | None = None) -> dict[str, Any]:
 def quads_summary(solution: Solution, quads: QuadMesh) -> str:
     """Counts and quality of the quads and their layout, in one line."""
     layout, quality = _layout(solution), quads.scaled_jacobian
-    irregular = sum(quads.irregular.values())
+    irregular, inverted = sum(quads.irregular.values()), np.count_nonzero(quality <= 0)
+    warning = f"; {inverted} are turned over: try more quads" if inverted else ""
     patches = f"{layout['patches']} patches, "
     patches += "conforming" if layout["conforming"] else f"{layout['t_junctions']} T-junctions"
     return (
         f"{quads.n_quads} quads in {patches}; {irregular} irregular vertices, "
-        f"scaled Jacobian at least {quality.min():.2f}, mean {quality.mean():.3f}"
+        f"scaled Jacobian at least {quality.min():.2f}, mean {quality.mean():.3f}{warning}"
     )
 
 

@@ -137,6 +137,26 @@ def test_crosses_and_separatrices_are_written_as_they_fit(crossview, tmp_path, n
         assert np.degrees(np.arccos(min(along, 1.0))) < 2
 
 
+def test_sharp_edges_are_edges_of_quads(crossview, tmp_path):
+    """A box: vertices slide along its edges and never over them."""
+    box = pv.Box(level=9).triangulate().clean()
+    box.save(tmp_path / "box.ply")
+    asked = ["natural", tmp_path / "box.ply", "--features", "40", "-o", tmp_path / "box.json"]
+    assert crossview(*asked).status == 0
+    asked = ["solve", tmp_path / "box.json", "-o", tmp_path / "out", "--quads", "--json"]
+    quads = crossview(*asked, "--target-quads", 600).json["quads"]
+    assert quads["irregular"] == {"3": 8}
+    mesh = pv.read(tmp_path / "out" / "quads.vtk").extract_surface(algorithm="dataset_surface")
+    assert mesh.area == pytest.approx(box.area)  # no corner is cut off
+
+
+def test_features_that_are_missed_are_told(crossview, tmp_path, case_file):
+    diagonal = [[[-0.25, -0.25, 0], [0.25, 0.25, 0]]]
+    path = case_file("square", features={"curves": diagonal})
+    ran = crossview("solve", path, "-o", tmp_path / "out", "--quads")
+    refused(ran, tmp_path, "misses a feature curve, by up to 45 degrees", "anisotropic")
+
+
 def test_without_quads_the_separatrices_are_told_all_the_same(crossview, tmp_path):
     assert crossview("solve", "suboptimal-a", "-o", tmp_path / "out").status == 0
     report = json.loads((tmp_path / "out" / "report.json").read_text())
