@@ -47,7 +47,13 @@ Where they are as clear as on average, the crosses follow them over the fourteen
 surface's size.
 """
 
+LEAST_DIFFERENCE = 0.1
+"""Mean of (k1 - k2)^2, in those of k1^2 + k2^2, below which little draws."""
+
 ITERATIONS = 400
+MOMENTUM = 0.9
+"""Share of the last change that is added before the next step (Polyak's heavy ball)."""
+
 STILL = 1e-6
 """Root mean square change of the crosses below which an iteration has ended."""
 
@@ -165,8 +171,8 @@ def principal_crosses(surface: TriSurface) -> ComplexArray:
     Returns
     -------
     (ne,) complex array
-        As `CrossesStep.z`, but of length (k1 - k2)^2, so scaled that its mean square is 1; 0
-        where there is nothing to follow.
+        As `CrossesStep.z`, but of length (k1 - k2)^2, so scaled that its mean square is about 1;
+        next to 0 where the curvatures hardly differ anywhere.
     """
     t = surface.triangulation
     normals = surface.vertex_normals[surface.faces]
@@ -179,9 +185,10 @@ def principal_crosses(surface: TriSurface) -> ComplexArray:
     area = np.bincount(edge, np.repeat(t.areas, 3))
     z = (np.bincount(edge, along.real) + 1j * np.bincount(edge, along.imag)) / area
     mean = np.sqrt(np.average(np.abs(z) ** 2, weights=area))
-    # Differences that are only rounding, as on a plane or a sphere, are none.
-    even = float(np.sqrt((shape**2).sum(axis=(1, 2)).max(initial=0.0)))
-    return z / mean if mean > 1e-6 * even**2 + 1e-300 else np.zeros_like(z)
+    # Differences far below the curvature itself, as on a faceted sphere, are errors of the mesh.
+    curvature = np.average((shape**2).sum(axis=(1, 2)), weights=t.areas)
+    scale = mean + LEAST_DIFFERENCE * curvature
+    return np.asarray(z / scale if scale > 0 else z)
 
 
 class _Crosses:
@@ -253,11 +260,14 @@ class _Crosses:
     def _until_still(
         self, z: ComplexArray, step: Callable[[ComplexArray], ComplexArray], stage: str
     ) -> Generator[Progress, None, ComplexArray]:
-        """Repeat a step until the crosses hardly change."""
+        """Repeat a step, each from a little farther on, until the crosses hardly change.
+
+        Singularities that drift slowly would take thousands of plain steps.
+        """
+        before = z
         for count in range(ITERATIONS):
-            after = step(z)
-            change = np.sqrt(np.average(np.abs(after - z) ** 2, weights=self.mass))
-            z = after
+            before, z = z, step(z + MOMENTUM * (z - before))
+            change = np.sqrt(np.average(np.abs(z - before) ** 2, weights=self.mass))
             yield CrossesStep(stage, count / ITERATIONS, self.surface, z)
             if change < STILL:
                 break

@@ -4,10 +4,13 @@ import numpy as np
 import pytest
 
 from solvers.errors import CrossviewError
-from solvers.natural import METHODS, natural_singularities
+from solvers.features import Features, sharp_edges
+from solvers.natural import METHODS, CrossesStep, natural_singularities, principal_crosses
 from solvers.primitives import BUILTIN
-from solvers.progress import run
+from solvers.progress import relayed, run
 from solvers.singularities import default_corners, index_budget
+from solvers.surface import TriSurface
+from solvers.triangulation import wrap
 from tests.solvers.suite import SURFACES
 
 
@@ -66,3 +69,63 @@ def test_the_sphere_has_the_anticube(method: str) -> None:
 def test_an_unknown_method_is_refused() -> None:
     with pytest.raises(CrossviewError, match="one of mbo, ginzburg-landau, globally-optimal"):
         run(natural_singularities(SURFACES["disk"](), "best"))
+
+
+def direction_off(surface, step: CrossesStep, directions: np.ndarray) -> np.ndarray:
+    """Degrees between the cross of each triangle and a direction (m, 3), 0 to 45."""
+    along, across = surface.face_frames
+    angle = np.arctan2((across * directions).sum(axis=1), (along * directions).sum(axis=1))
+    return np.degrees(np.abs(wrap(step.theta - angle, np.pi / 2)))
+
+
+def around(surface) -> np.ndarray:
+    """The direction around the z axis in each triangle."""
+    x, y, _ = surface.barycentres.T
+    return np.stack([-y, x, np.zeros_like(x)], axis=1)
+
+
+@pytest.mark.parametrize("name", ["cylinder", "torus"])
+def test_principal_directions_run_around_and_along(name: str) -> None:
+    surface = SURFACES[name]()
+    step = CrossesStep("", 0.0, surface, principal_crosses(surface))
+    assert np.median(direction_off(surface, step, around(surface))) < 1
+    assert 0.5 < np.median(np.abs(step.z)) < 1.5
+
+
+@pytest.mark.parametrize("name", ["square", "sphere"])
+def test_nothing_draws_where_both_curvatures_agree(name: str) -> None:
+    assert np.abs(principal_crosses(BUILTIN[name]())).max() < 0.1
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_crosses_are_drawn_along_curvature(method: str) -> None:
+    surface = SURFACES["torus"]()
+    seen: list[CrossesStep] = []
+
+    def look(step):
+        seen.append(step) if isinstance(step, CrossesStep) else None
+        return step
+
+    found = run(relayed(natural_singularities(surface, method, alignment="curvature"), look))
+    assert found == ()
+    if method != "globally-optimal":  # which takes one step
+        assert np.median(direction_off(surface, seen[-1], around(surface))) < 1
+
+
+def test_a_cone_of_features_gathers_singularities_at_its_corners() -> None:
+    sphere = BUILTIN["cube_sphere"](n=12)
+    cube = TriSurface(sphere.vertices / np.abs(sphere.vertices).max(axis=1)[:, None], sphere.faces)
+    features = Features(cube, sharp_edges(cube, 40))
+    for method in METHODS:
+        found = run(natural_singularities(cube, method, features=features))
+        places = cube.positions([s.point for s in found])
+        assert [s.valence for s in found] == [3] * 8
+        assert np.abs(places) == pytest.approx(np.ones((8, 3)))
+
+
+@pytest.mark.parametrize(
+    "wrong", [{"alignment": "symmetry"}, {"alignment": "curvature", "weight": -1.0}]
+)
+def test_wrong_options_are_refused(wrong: dict) -> None:
+    with pytest.raises(CrossviewError, match=r"smoothness, curvature|weight"):
+        run(natural_singularities(SURFACES["disk"](), **wrong))
