@@ -63,9 +63,7 @@ class QuadsPanel(QScrollArea):
         self.boxes.setMaximumHeight(self.count_box.sizeHint().height())
         self.unit.currentIndexChanged.connect(self.boxes.setCurrentIndex)
         self.collapse = QCheckBox("Collapse arcs")
-        self.collapse.setToolTip(
-            "What is nearly in line comes into line, for coarse quads"
-        )
+        self.collapse.setToolTip("What is nearly in line comes into line, for coarse quads")
         self.smooth = QCheckBox("Smooth")
         self.smooth.setToolTip("Let the vertices slide on the surface to better quads")
         self.smooth.setChecked(True)
