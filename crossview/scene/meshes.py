@@ -50,7 +50,7 @@ def t_junctions_of(separatrices: Separatrices) -> FloatArray:
 def patches_of(layout: QuadLayout) -> Quads:
     """Return the sampled patches of a layout as quads to draw."""
     sampled = layout.patch_mesh
-    return Quads(sampled.points, sampled.quads, sampled.patch)
+    return Quads(sampled.points, sampled.quads, sampled.patch, apart=True)
 
 
 @_once

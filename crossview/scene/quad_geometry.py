@@ -25,6 +25,8 @@ class QuadGeometry:
     @cached_property
     def merged(self) -> tuple[FloatArray, IntArray]:
         """Points and quads with points in the same place made one."""
+        if not self.mesh.apart:
+            return self.mesh.points, self.mesh.quads
         points = np.asarray(self.mesh.points, float)
         cell = _SAME * (float(np.linalg.norm(np.ptp(points, axis=0))) or 1.0)
         keys = np.round((points - points.min(axis=0)) / cell).astype(np.int64)

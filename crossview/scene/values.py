@@ -96,6 +96,8 @@ class Quads:
         Positions of the irregular vertices.
     valences : (k,) int, optional
         Of the irregular vertices.
+    apart : bool
+        Whether patches share no points, so that points in one place are to be found.
     """
 
     points: FloatArray
@@ -104,3 +106,4 @@ class Quads:
     quality: FloatArray | None = None
     irregular: FloatArray = field(default_factory=lambda: np.empty((0, 3)))
     valences: IntArray = field(default_factory=lambda: np.empty(0, int))
+    apart: bool = False

@@ -199,7 +199,7 @@ class TestLayout:
         points, quads, _ = grid(12, 3)
         turn = 2 * np.pi * (points[:, 0] + 0.5)
         tube = np.stack([np.cos(turn), np.sin(turn), points[:, 1]], axis=1)
-        geometry = QuadGeometry(Quads(tube, quads, np.zeros(len(quads), int)))
+        geometry = QuadGeometry(Quads(tube, quads, np.zeros(len(quads), int), apart=True))
         assert len(geometry.borders) == 2 * 12 + 2 * 3
         assert len(geometry.merged[0]) == 12 * 4  # but it is shaded as one
 
