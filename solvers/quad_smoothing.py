@@ -119,10 +119,11 @@ def _rounds(
     sliding: Sliding, places: Places, free: IntArray, sides: FloatArray, rounds: int
 ) -> Places:
     """Return the best places of many rounds, which end when they lead to nothing better."""
-    best, best_score, since = places, _score(sliding, places), 0
+    quality = sliding.quality(places, sliding.mesh.quads)
+    best, best_score, since = places, _score(quality), 0
     for _ in range(rounds):
-        places = _round(sliding, places, free, sides)
-        score = _score(sliding, places)
+        places, quality = _round(sliding, places, quality, free, sides)
+        score = _score(quality)
         since = 0 if score > best_score + LITTLE else since + 1
         if score > best_score:
             best, best_score = places, score
@@ -131,13 +132,14 @@ def _rounds(
     return best
 
 
-def _score(sliding: Sliding, places: Places) -> float:
-    quality = sliding.quality(places, sliding.mesh.quads)
+def _score(quality: FloatArray) -> float:
     return float(quality.mean() + WORST * quality.min()) if len(quality) else 0.0
 
 
-def _round(sliding: Sliding, places: Places, free: IntArray, sides: FloatArray) -> Places:
-    """Return the places after a local and a global step that leaves no quad below the worst."""
+def _round(
+    sliding: Sliding, places: Places, quality: FloatArray, free: IntArray, sides: FloatArray
+) -> tuple[Places, FloatArray]:
+    """Return places and qualities after two steps that leave no quad below the worst before."""
     mesh, quads = sliding.mesh, sliding.mesh.quads
     outward = mesh.surface.face_normals[places.faces[quads]].sum(axis=1)
     asked = rectangles(places.vertices[quads], outward, sides).reshape(-1, 3)
@@ -146,14 +148,14 @@ def _round(sliding: Sliding, places: Places, free: IntArray, sides: FloatArray) 
     weights = np.bincount(quads.reshape(-1), weight, mesh.n_vertices)
     means = np.stack(total, axis=1) / weights[:, None]
     moved = places.put(free, sliding.moved(places, free, means[free]))
-    least = sliding.quality(places, quads).min(initial=1.0)
+    least = quality.min(initial=1.0)
     for _ in range(RETREATS):
-        spoilt = sliding.quality(moved, quads) < least
-        if not spoilt.any():
-            return moved
-        back = np.unique(quads[spoilt])
+        found = sliding.quality(moved, quads)
+        if found.min(initial=1.0) >= least:
+            return moved, found
+        back = np.unique(quads[found < least])
         moved = moved.put(back, places.at(back))
-    return places
+    return places, quality
 
 
 def rectangles(corners: FloatArray, outward: FloatArray, sides: FloatArray) -> FloatArray:

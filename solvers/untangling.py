@@ -14,6 +14,9 @@ POOR = 0.7
 ROUNDS = 40
 """How often vertices of poor quads try to move."""
 
+POWER = 4
+"""The higher, the more the worst quad counts and the others give way."""
+
 PATIENCE = 8
 """Rounds in which nothing moves, after which no more are tried."""
 
@@ -25,10 +28,10 @@ DIRECTIONS = 8
 
 
 def improve_worst(sliding: Sliding, places: Places, free: IntArray) -> Places:
-    """Return places with the worst quads improved, and none made worse than its neighbours were.
+    """Return places with poor quads improved, and none worse than the worst was.
 
-    Vertices of poor quads, no two of one quad at a time, move to where the worst of the quads
-    around each is best.
+    Vertices of poor quads, no two of one quad at a time, move to where the sum of powers of
+    1 - quality of the quads around each is least.
 
     Parameters
     ----------
@@ -43,17 +46,20 @@ def improve_worst(sliding: Sliding, places: Places, free: IntArray) -> Places:
     may_move = np.zeros(mesh.n_vertices, dtype=bool)
     may_move[free] = True
     around = _QuadsAround(mesh)
+    quality = sliding.quality(places, mesh.quads)
     idle = 0
     for k in range(ROUNDS):
-        poor = mesh.quads[sliding.quality(places, mesh.quads) < POOR]
         wanted = np.zeros(mesh.n_vertices, dtype=bool)
-        wanted[poor] = True
+        wanted[mesh.quads[quality < POOR]] = True
         ids = np.flatnonzero(_independent(mesh, wanted & may_move, k))
         if len(ids) == 0 or idle == PATIENCE:
             break
-        tried = _tried(sliding, places, ids, around, RADII[k % len(RADII)])
+        radius, least = RADII[k % len(RADII)], float(quality.min())
+        tried = _tried(sliding, places, ids, around, radius, least)
         idle = idle + 1 if (tried.vertices == places.vertices).all() else 0
         places = tried
+        touched = around.pairs(ids)[1]
+        quality[touched] = sliding.quality(places, mesh.quads[touched])
     return places
 
 
@@ -83,9 +89,17 @@ def _independent(mesh: QuadMesh, wanted: BoolArray, round_: int) -> BoolArray:
 
 
 def _tried(
-    sliding: Sliding, places: Places, ids: IntArray, around: _QuadsAround, radius: float
+    sliding: Sliding,
+    places: Places,
+    ids: IntArray,
+    around: _QuadsAround,
+    radius: float,
+    least: float,
 ) -> Places:
-    """Return the places after each of the vertices took the best of a ring of places around it."""
+    """Return the places after each of the vertices took the best of a ring of places around it.
+
+    None after which a quad is worse than `least` and than the worst around before.
+    """
     quads = sliding.mesh.quads
     at, quad = around.pairs(ids)
     ring = places.vertices[quads[quad]]
@@ -112,6 +126,9 @@ def _tried(
     corners = quads[quad]
     own = corners == ids[at][:, None]
     quality = sliding.quality(everything, np.where(own, number[:, at][:, :, None], corners))
-    worst = np.minimum.reduceat(quality, np.flatnonzero(np.r_[True, np.diff(at) > 0]), axis=1)
-    best = np.argmax(worst, axis=0)
+    starts = np.flatnonzero(np.r_[True, np.diff(at) > 0])
+    badness = np.add.reduceat((1 - quality) ** POWER, starts, axis=1)
+    worst = np.minimum.reduceat(quality, starts, axis=1)
+    spoilt = (worst < least) & (worst < worst[0])
+    best = np.argmin(np.where(spoilt, np.inf, badness), axis=0)
     return places.put(ids, made.at(best * len(ids) + np.arange(len(ids))))
