@@ -28,6 +28,9 @@ from solvers.validity_search import TOLERANCE, TOO_FEW, Blocked, Moved, Search
 
 __all__ = ["TOLERANCE", "Moved", "Offer", "ValidityError", "make_valid"]
 
+NEAREST = 16
+"""How many layouts are tried before something else is offered."""
+
 FARTHER = 8
 """How many layouts that are farther off are tried for an offer."""
 
@@ -213,7 +216,7 @@ def _near(defects: FloatArray) -> list[tuple[int, ...]]:
         for chosen in product((0, 1), repeat=len(defects))
         if sum(chosen) <= 2
     )
-    return _sorted(defects, aims)
+    return _sorted(defects, aims)[:NEAREST]
 
 
 def _sorted(defects: FloatArray, aims: Iterator[tuple[int, ...]]) -> list[tuple[int, ...]]:

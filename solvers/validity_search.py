@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Mapping, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -26,8 +26,11 @@ LONGEST_STEP = 0.1
 HALVINGS, CONTACTS = 7, 4
 """How often a step is halved; how often it is bent around what it would come too near to."""
 
-SAMPLES = 200
-"""At how many triangles the potentials of two surfaces are compared."""
+NEAR = np.radians(1e-3)
+"""Defects below which the refined surface's own operator takes over."""
+
+NUDGE = 0.1
+"""How far singularities are nudged, in shortest edges of their triangles."""
 
 TOO_FEW = "too few singularities may move"
 CROWDED = "singularities would come too near to each other or to the boundary"
@@ -124,9 +127,12 @@ class Search:
         remaining = self._guide.defects(singularities) - goal
         for _ in range(limit):
             worst = float(np.abs(remaining).max(initial=0.0))
-            if worst < TOLERANCE / 10:
+            if worst < NEAR:
                 return singularities
-            moved = self._advance(singularities, remaining)
+            gradients = self._guide.gradients([s.point for s in singularities])
+            moved = self._advance(
+                singularities, remaining, gradients, self._falls(singularities, remaining)
+            )
             # Steps are short, so the defects have changed by less than an eighth of a turn.
             change = wrap(self._guide.defects(moved) - goal - remaining, QUARTER)
             singularities, remaining = moved, remaining + change
@@ -140,9 +146,13 @@ class Search:
         turns: tuple[int, ...],
         corners: Mapping[int, int] | None,
         levels: int,
-        limit: int = 24,
+        limit: int = 60,
     ) -> Generator[Progress, None, Moved]:
         """Correct what a fresh operator on the refined surface still finds.
+
+        How the surface is refined depends on the small triangles that the singularities are in,
+        and the operator's defects jump a little where that changes. Where corrections go to and
+        fro over such a jump, all singularities are nudged along their level lines.
 
         Parameters
         ----------
@@ -158,6 +168,7 @@ class Search:
         Blocked
             The fresh operator's defects do not vanish.
         """
+        chance, before = np.random.default_rng(0), np.inf
         for _ in range(limit):
             refinement = refine_at(self._surface, [s.point for s in singularities], levels)
             fine = refinement.surface
@@ -167,39 +178,72 @@ class Search:
             ]
             fresh = IsotropicSolver(fine, corners).holonomy
             defects = fresh.defects(inserted)
+            worst = float(np.abs(defects).max(initial=0.0))
             yield Moved("verifying", 0.9, singularities, defects, turns)
-            if np.abs(defects).max(initial=0.0) < TOLERANCE:
+            if worst < TOLERANCE:
                 return Moved("valid", 1.0, singularities, defects, turns)
-            defects = self._on_own_loops(refinement, fresh, defects)
-            singularities = self._advance(singularities, defects)
+            gradients = self._inserted_gradients(singularities, refinement, fresh)
+            singularities = self._advance(singularities, defects, gradients, lambda _: True)
+            if worst > 0.9 * before:
+                singularities = self._nudged(singularities, defects, gradients, chance)
+            before = worst
         raise Blocked(UNSETTLED, defects)
 
-    def _on_own_loops(
-        self, refinement: Refinement, fresh: Holonomy, defects: FloatArray
-    ) -> FloatArray:
-        """Return the defects of a refined surface around the loops of this one.
+    def _falls(
+        self, singularities: tuple[Singularity, ...], remaining: FloatArray
+    ) -> Callable[[tuple[Singularity, ...]], bool]:
+        """Return whether a move lets the defects fall."""
+        now, before = self._guide.defects(singularities), float(np.linalg.norm(remaining))
 
-        Handle loops are chosen anew on each surface. Around sums of loops the defects add up, and
-        the gradients of the potentials tell which sums they are.
+        def falls(moved: tuple[Singularity, ...]) -> bool:
+            change = wrap(self._guide.defects(moved) - now, QUARTER)
+            return float(np.linalg.norm(remaining + change)) < before
+
+        return falls
+
+    def _inserted_gradients(
+        self, singularities: tuple[Singularity, ...], refinement: Refinement, fresh: Holonomy
+    ) -> FloatArray:
+        """Return the gradients (c, k, 2) of a refined surface's potentials in the own triangles.
+
+        At an inserted vertex the mean over the triangles around it.
         """
-        fine = refinement.surface
-        if fine.genus == 0:
-            return defects
-        faces = np.unique(np.linspace(0, fine.n_faces - 1, SAMPLES).astype(np.int64)).tolist()
-        third = 1 / 3
-        points = [SurfacePoint(face, (third, third, third)) for face in faces]
-        there = _flattened(fine, points, fresh.gradients(points))
-        points = [refinement.lift(point) for point in points]
-        here = _flattened(self._surface, points, self._guide.gradients(points))
-        sums = np.rint(there @ np.linalg.pinv(here))
-        return wrap(np.rint(np.linalg.pinv(sums)) @ defects, QUARTER)
+        fine, vertices = refinement.surface, refinement.vertices
+        owner, faces = np.nonzero((fine.faces[None] == vertices[:, None, None]).any(axis=2))
+        points = [SurfacePoint(face, (1 / 3, 1 / 3, 1 / 3)) for face in faces.tolist()]
+        frames = np.stack(fine.face_frames, axis=1)[faces]
+        in_space = np.einsum("cpd,pdx->cpx", fresh.gradients(points), frames)
+        in_space *= fine.face_areas[faces][:, None]
+        sums = np.zeros((len(vertices), len(in_space), 3))
+        np.add.at(sums, owner, in_space.swapaxes(0, 1))
+        sums /= np.bincount(owner, fine.face_areas[faces])[:, None, None]
+        own = np.stack(self._surface.face_frames, axis=1)[[s.point.face for s in singularities]]
+        return np.einsum("kcx,kdx->ckd", sums, own)
+
+    def _nudged(
+        self,
+        singularities: tuple[Singularity, ...],
+        defects: FloatArray,
+        gradients: FloatArray,
+        chance: np.random.Generator,
+    ) -> tuple[Singularity, ...]:
+        """Move singularities a little so that no defect changes, as far as gradients tell."""
+        matrix = self._matrix(gradients, defects)
+        edge = self._surface.triangulation.lengths[[s.point.face for s in singularities]].min(1)
+        step = NUDGE * edge[:, None] * chance.normal(size=(len(singularities), 2))
+        step -= _least(matrix, matrix @ step.reshape(-1))
+        moved = self._moved(singularities, step)
+        return singularities if len(self._spacing.too_near(moved)) else moved
 
     def _advance(
-        self, singularities: tuple[Singularity, ...], remaining: FloatArray
+        self,
+        singularities: tuple[Singularity, ...],
+        remaining: FloatArray,
+        gradients: FloatArray,
+        accepted: Callable[[tuple[Singularity, ...]], bool],
     ) -> tuple[Singularity, ...]:
-        """Take the least step, cut so that the defects fall, bent so that distances are kept."""
-        now, before = self._guide.defects(singularities), float(np.linalg.norm(remaining))
-        matrix = self._matrix(singularities, remaining)
+        """Take the least step, cut until it is accepted, bent so that distances are kept."""
+        matrix = self._matrix(gradients, remaining)
         longest = np.linalg.norm(_least(matrix, -remaining), axis=1).max()
         reach = LONGEST_STEP * self._unit
         share, why = min(1.0, reach / max(float(longest), 1e-300)), STALLED
@@ -212,8 +256,7 @@ class Search:
                     break
                 moved = self._moved(singularities, step)
                 near = self._spacing.too_near(moved)
-                change = wrap(self._guide.defects(moved) - now, QUARTER)
-                if not len(near) and float(np.linalg.norm(remaining + change)) < before:
+                if not len(near) and accepted(moved):
                     return moved
                 if not len(near):
                     break
@@ -223,9 +266,8 @@ class Search:
             share /= 2
         raise Blocked(why, remaining)
 
-    def _matrix(self, singularities: tuple[Singularity, ...], remaining: FloatArray) -> FloatArray:
+    def _matrix(self, gradients: FloatArray, remaining: FloatArray) -> FloatArray:
         """Return (c, 2 k): how the defects change with moves in the triangles' frames."""
-        gradients = self._guide.gradients([s.point for s in singularities])
         weight = QUARTER * self._index * self._free
         matrix = np.asarray((gradients * weight[:, None]).reshape(len(remaining), -1))
         scale = np.linalg.svd(matrix, compute_uv=False)
@@ -246,11 +288,3 @@ def _least(matrix: FloatArray, right: FloatArray) -> FloatArray:
     """Return the least moves (k, 2) that solve the equations as well as can be."""
     moves = np.linalg.lstsq(matrix, right, rcond=1e-9)[0]
     return np.asarray(moves.reshape(-1, 2))
-
-
-def _flattened(
-    surface: TriSurface, points: Sequence[SurfacePoint], gradients: FloatArray
-) -> FloatArray:
-    """Return (c, 3 k) gradients in space from (c, k, 2) in the points' triangles."""
-    frames = np.stack(surface.face_frames, axis=1)[[point.face for point in points]]
-    return np.einsum("ckd,kdx->ckx", gradients, frames).reshape(len(gradients), -1)
