@@ -88,8 +88,13 @@ class Picker:
         return None if best is None else best[1]
 
     def _visible(self, position: NDArray[np.float64], centre: Place, radius: float) -> bool:
+        """Whether nothing is before it; a ray may slip between triangles and hit the far side."""
         pick = self.pick(centre)
-        return pick is None or float(np.linalg.norm(position - pick.position)) <= 2.0 * radius
+        if pick is None:
+            return True
+        eye = np.array(self._ray(centre)[0])
+        away, hit = (float(np.linalg.norm(at - eye)) for at in (position, pick.position))
+        return hit >= away - 2.0 * radius
 
     def _sideways(self) -> NDArray[np.float64]:
         """Return the unit vector to the right of the picture."""
