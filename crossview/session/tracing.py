@@ -14,8 +14,11 @@ from solvers.separatrices import Separatrices, field_separatrices
 LONGEST = 1.5
 """Length at which a curve is given up, in square roots of the surface's area."""
 
-QUICK, PAUSES = 0.05, 2.0
-"""Seconds that tracing may take while something moves; between two are so many times as many."""
+QUICK = 0.05
+"""Seconds of work that tracing may take while something moves."""
+
+PAUSES = 2.0
+"""Between two tracings passes so many times the time that one has taken."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,6 +33,7 @@ class LiveTracer:
     """Traces fields of a drag, one after the other, all on one thread."""
 
     def __init__(self) -> None:
+        self._work = 0.0
         self._seconds = 0.0
         self._ended = 0.0
 
@@ -37,7 +41,7 @@ class LiveTracer:
     def ready(self) -> bool:
         """Whether tracing now would not hold up what moves."""
         rested = time.monotonic() - self._ended >= PAUSES * self._seconds
-        return self._seconds <= QUICK and rested
+        return self._work <= QUICK and rested
 
     def follow(self, edit: LiveEdit, wanted: bool) -> Generator[Progress, None, Traced]:
         """Solve an edit; trace it if that is wanted and there is time."""
@@ -50,8 +54,9 @@ class LiveTracer:
         return self._traced(field)
 
     def _traced(self, field: CrossField) -> Traced:
-        start = time.monotonic()
+        # work, unlike time, is the same whatever else the machine does
+        start, work = time.monotonic(), time.thread_time()
         found = field_separatrices(field, LONGEST)
-        self._ended = time.monotonic()
+        self._ended, self._work = time.monotonic(), time.thread_time() - work
         self._seconds = self._ended - start
         return Traced(field, found)
