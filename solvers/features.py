@@ -18,13 +18,16 @@ from solvers.graphs import HalfedgeGraph, walk_back
 from solvers.refinement import Refinement
 from solvers.singularities import TIE
 from solvers.surface import TriSurface, barycentric
-from solvers.triangulation import FloatArray, IntArray, next_halfedge
+from solvers.triangulation import FloatArray, IntArray, next_halfedge, previous_halfedge
 
 FLAT = np.radians(160)
 """Largest angle of a triangle that is next to flat."""
 
 ON_SIDE = 1e-7
 """Weight of a corner of a triangle below which a place lies on the side opposite."""
+
+NARROW = np.radians(30)
+"""Angle between two features that leaves no room for a quad."""
 
 SHARP_TURN = np.pi / 4 * (1 + TIE)
 """By how much a curve may turn at a vertex and still go on, radians."""
@@ -86,10 +89,10 @@ class Features:
         return np.bincount(self.ends.reshape(-1), minlength=self.surface.n_vertices)
 
     @cached_property
-    def turns(self) -> FloatArray:
-        """(n,) by how much the features turn at vertices where two of them meet, else 0; radians.
+    def _sectors(self) -> tuple[IntArray, FloatArray, IntArray]:
+        """What features and boundary cut the neighbourhoods of vertices into.
 
-        Half the difference of the angles on both sides: what is left when a cone is unfolded.
+        The sector of each halfedge's first corner (3 m,), the angle of each sector and its vertex.
         """
         t = self.surface.triangulation
         blocked = t.twin < 0
@@ -99,10 +102,20 @@ class Features:
             (np.ones(len(h), dtype=np.int8), (h, next_halfedge(t.twin[h]))),
             shape=(len(blocked), len(blocked)),
         )
-        count, sector = connected_components(graph, directed=False)
-        angle = np.bincount(sector, t.angles.reshape(-1), count)
-        vertex = np.empty(count, dtype=np.int64)
+        label = connected_components(graph, directed=False)[1]
+        sector: IntArray = label.astype(np.int64)
+        angle: FloatArray = np.bincount(sector, t.angles.reshape(-1))
+        vertex: IntArray = np.empty(len(angle), dtype=np.int64)
         vertex[sector] = t.tail
+        return sector, angle, vertex
+
+    @cached_property
+    def turns(self) -> FloatArray:
+        """(n,) by how much the features turn at vertices where two of them meet, else 0; radians.
+
+        Half the difference of the angles on both sides: what is left when a cone is unfolded.
+        """
+        _, angle, vertex = self._sectors
         passed = (self.degrees == 2) & ~self.surface.boundary_vertices
         of_passed = np.flatnonzero(passed[vertex])
         by_vertex = of_passed[np.argsort(vertex[of_passed], kind="stable")]
@@ -176,6 +189,34 @@ class Features:
         inner = edges[self.surface.edge_faces[edges, 1] >= 0]
         return Features(self.surface, np.union1d(self.edges, inner))
 
+    def without_spurs(self) -> Features:
+        """Return the features less curves that leave a longer one at too sharp an angle.
+
+        No quad fits between two curves that are next to parallel where they meet.
+        """
+        features = self
+        while len(spurs := features._spurs()):
+            kept = ~np.isin(features.curve_of, spurs)
+            features = Features(self.surface, features.edges[kept])
+        return features
+
+    def _spurs(self) -> IntArray:
+        """Return the curves that are the shorter side of a narrow sector."""
+        sector, angle, _ = self._sectors
+        t = self.surface.triangulation
+        curve = np.full(len(t.twin), -1, dtype=np.int64)
+        curve[self.halfedges] = curve[t.twin[self.halfedges]] = self.curve_of
+        # A sector reaches from the halfedge that starts it to the twin of that which ends it.
+        start, end = curve, curve[previous_halfedge(np.arange(len(curve)))]
+        sides = np.full((2, len(angle)), -1, dtype=np.int64)
+        for side, found in zip(sides, (start, end), strict=True):
+            side[sector[found >= 0]] = found[found >= 0]
+        narrow = (angle < NARROW) & (sides >= 0).all(axis=0) & (sides[0] != sides[1])
+        pairs = sides[:, narrow]
+        lengths = t.lengths.reshape(-1)[self.halfedges]
+        length = np.bincount(self.curve_of, lengths, len(self.curves))
+        return np.unique(np.where(length[pairs[0]] < length[pairs[1]], pairs[0], pairs[1]))
+
     def refined(self, refinement: Refinement) -> Features:
         """Return the same features on a refined surface: refinement splits edges, no more.
 
@@ -233,7 +274,8 @@ def sharp_edges(surface: TriSurface, degrees: float) -> IntArray:
     """Return the edges over which the surface bends by more than an angle.
 
     The normal of a next to flat triangle means little: where its longest edge is sharp, the two
-    others are not.
+    others are not. Curves of sharp edges that leave a longer one at too sharp an angle are left
+    out, as `Features.without_spurs`.
 
     Parameters
     ----------
@@ -255,7 +297,7 @@ def sharp_edges(surface: TriSurface, degrees: float) -> IntArray:
     along = edges[np.arange(len(flat)), longest]
     over = edges[sharp[along]].reshape(-1)
     sharp[np.setdiff1d(over, along)] = False
-    return np.flatnonzero(sharp)
+    return no_features(surface).united(np.flatnonzero(sharp)).without_spurs().edges
 
 
 class EdgePaths:
