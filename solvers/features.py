@@ -103,9 +103,9 @@ class Features:
             shape=(len(blocked), len(blocked)),
         )
         label = connected_components(graph, directed=False)[1]
-        sector: IntArray = label.astype(np.int64)
-        angle: FloatArray = np.bincount(sector, t.angles.reshape(-1))
-        vertex: IntArray = np.empty(len(angle), dtype=np.int64)
+        sector = np.asarray(label, dtype=np.int64)
+        angle = np.asarray(np.bincount(sector, t.angles.reshape(-1)), dtype=np.float64)
+        vertex = np.empty(len(angle), dtype=np.int64)
         vertex[sector] = t.tail
         return sector, angle, vertex
 
