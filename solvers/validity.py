@@ -9,7 +9,7 @@ the refined surface, where the defects of a fresh operator are corrected until t
 from __future__ import annotations
 
 from collections.abc import Generator, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import Literal
 
@@ -148,7 +148,8 @@ class _Attempt:
             search = Search(self._surface, self._guide, start)
             try:
                 moved = yield from search.approach(start, turns)
-                return (yield from search.verify(moved, turns, self._corners, self._levels))
+                end = yield from search.verify(moved, turns, self._corners, self._levels)
+                return replace(end, layout=_in_words(turns, self._guide.conditions))
             except Blocked as blocked:
                 first = first or blocked
                 if first.why == TOO_FEW:
@@ -162,8 +163,7 @@ class _Attempt:
         if why not in ("", TOO_FEW):
             farther = yield from self._tried("trying other layouts", start, self._far(start))
             if farther is not None:
-                turns = _in_words(farther.turns, self._guide.conditions)
-                found.append(Offer("turns", f"Aim at {turns}", farther.singularities))
+                found.append(Offer("turns", f"Aim at {farther.layout}", farther.singularities))
         sites = yield from far_points(self._surface, start, SITES)
         for site in sites:
             try:
@@ -230,7 +230,7 @@ def _in_words(turns: Sequence[int], conditions: Sequence[Condition]) -> str:
         for n, condition in zip(turns, conditions, strict=True)
         if n
     ]
-    return " and ".join(parts) or "the nearest layout"
+    return " and ".join(parts)
 
 
 def _around(condition: Condition) -> str:

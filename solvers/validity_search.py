@@ -52,11 +52,14 @@ class Moved(Progress):
         Their holonomy defects, radians.
     turns : tuple of int
         The quarter turns that each condition is taken to: 0 the nearest, else another layout.
+    layout : str
+        The same in words at the end of the way; empty: the nearest.
     """
 
     singularities: tuple[Singularity, ...]
     defects: FloatArray
     turns: tuple[int, ...]
+    layout: str = ""
 
 
 class Blocked(Exception):

@@ -47,5 +47,5 @@ def make_valid(
         before = surface.positions([s.point for s in problem.singularities])
         after = surface.positions([s.point for s in end.singularities])
         farthest = float(((after - before) ** 2).sum(axis=1).max(initial=0.0) ** 0.5)
-        layout = ", to a farther layout" if any(end.turns) else ""
+        layout = f", aimed at {end.layout}" if end.layout else ""
         say(f"valid: singularities moved by up to {farthest:.3g}{layout}; wrote {output}")

@@ -75,9 +75,12 @@ def _moving(state: WindowState) -> int | None:
     """Return the number of what is dragged, previewed or hovered; of a row's, what is selected."""
     if state.trial is not None:
         return None if state.trial.edit is None else state.trial.index
-    if state.hovered is not None:
-        return state.hovered
-    return None if state.condition is None else state.selected
+    under = (
+        state.hovered if state.hovered is not None or state.condition is None else state.selected
+    )
+    if under is None or state.document is None or state.document.singularities[under].locked:
+        return None
+    return under
 
 
 def _guidance(state: WindowState, moving: int) -> Guidance:

@@ -70,7 +70,11 @@ class Moves:
     def _offers(self, error: Exception) -> tuple[MessageAction, ...]:
         """Return what the error itself says may be done."""
         if isinstance(error, ValidityError):
-            return tuple(MessageAction(o.label, partial(self._take, o)) for o in error.offers)
+            return tuple(
+                MessageAction(offer.label, partial(self._take, offer))
+                for offer in error.offers
+                if offer.kind != self._store.state.method
+            )
         remedy = error.remedy if isinstance(error, CrossviewError) else ""
         if "anisotropic" not in remedy or self._store.state.method == "anisotropic":
             return ()

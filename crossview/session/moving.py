@@ -75,7 +75,8 @@ def move_to_validity(
         return Moving(step.stage, step.fraction, step.singularities, step.defects, field)
 
     moved = yield from relayed(computation, show)
-    return ReplaceSingularities(moved.singularities, "make valid")
+    aimed = f", aimed at {moved.layout}" if moved.layout else ""
+    return ReplaceSingularities(moved.singularities, f"make valid{aimed}")
 
 
 def place_natural(

@@ -6,13 +6,14 @@ import pytest
 from solvers.errors import SingularityError
 from solvers.geodesics import straightest
 from solvers.isotropic import IsotropicSolver
+from solvers.placing import far_points
 from solvers.points import SurfacePoint
 from solvers.primitives import BUILTIN
-from solvers.progress import run
+from solvers.progress import Progress, run
 from solvers.refinement import refine_at
 from solvers.singularities import Singularity, default_corners
 from solvers.surface import TriSurface
-from solvers.validity import Moved, make_valid
+from solvers.validity import Moved, ValidityError, make_valid
 from tests.solvers.suite import SURFACES, at_vertices, separated
 
 
@@ -91,6 +92,59 @@ def test_nearly_every_random_annulus_and_plate_can_be_made_valid() -> None:
             except SingularityError as error:
                 failures.append(str(error))
     assert len(failures) <= 1, failures
+
+
+def fresh(surface: TriSurface, singularities) -> float:
+    """The largest defect, degrees, of a field solved anew with the singularities as vertices."""
+    refinement = refine_at(surface, [s.point for s in singularities])
+    valences = [s.valence for s in singularities]
+    placed = at_vertices(refinement.surface, refinement.vertices.tolist(), valences)
+    solved = IsotropicSolver(refinement.surface).solve(placed)
+    return float(np.degrees(np.abs(solved.defects).max()))
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_handles_chosen_anew_on_the_refined_surface_lead_nowhere_else(seed: int) -> None:
+    """The nearest layout is reached, in a few corrections: those of one set of loops."""
+    surface, singularities = configuration("double_torus", seed)
+    shown: list[Progress] = []
+    end = run(make_valid(surface, singularities), shown.append)
+    assert end.turns == (0, 0, 0, 0)
+    assert end.layout == ""
+    assert sum(step.stage == "verifying" for step in shown) < 12
+
+
+def test_corrections_that_go_to_and_fro_over_a_jump_find_a_way_out() -> None:
+    """On vertices at symmetrical places every move changes how the surface is refined."""
+    torus = BUILTIN["torus"](n=48)
+    start = [
+        Singularity(p, v) for p, v in zip(run(far_points(torus, (), 4)), [3, 5, 3, 5], strict=True)
+    ]
+    end = run(make_valid(torus, start))
+    assert end.turns == (0, 0)
+    assert fresh(torus, end.singularities) < 1e-6
+
+
+def test_what_helps_is_offered_and_was_tried() -> None:
+    torus = BUILTIN["torus"](n=36)
+    annulus, start = configuration("annulus", 3)
+    locked = [Singularity(s.point, s.valence, locked=True) for s in start]
+    for surface, singularities in (
+        (torus, at_vertices(torus, [10, 400], [3, 5])),
+        (annulus, locked),
+    ):
+        with pytest.raises(ValidityError) as raised:
+            run(make_valid(surface, singularities))
+        error = raised.value
+        assert [offer.kind for offer in error.offers] == ["pair", "anisotropic"]
+        pair = error.offers[0]
+        assert pair.label.startswith("Add a pair of 3 and 5 near (")
+        assert pair.label[1:] in str(error)
+        assert len(pair.singularities) == len(singularities) + 2
+        assert fresh(surface, pair.singularities) < 1e-6
+        assert error.offers[1].singularities is None
+    assert error.condition == 0
+    assert list(pair.singularities[:-2]) == locked
 
 
 def test_locked_singularities_stay_and_the_way_is_shown() -> None:
