@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from crossview.case import Case
+from crossview.problem import Problem
 from solvers.errors import SingularityError
 from solvers.geodesics import straightest
 from solvers.isotropic import IsotropicSolver
@@ -114,9 +116,9 @@ def test_handles_chosen_anew_on_the_refined_surface_lead_nowhere_else(seed: int)
     assert sum(step.stage == "verifying" for step in shown) < 12
 
 
-def test_corrections_that_go_to_and_fro_over_a_jump_find_a_way_out() -> None:
+def test_corrections_that_go_to_and_fro_over_a_jump_find_a_way_out(real_surface) -> None:
     """On vertices at symmetrical places every move changes how the surface is refined."""
-    torus = BUILTIN["torus"](n=48)
+    torus = Problem.from_case(Case(str(real_surface("torus.obj")))).surface
     start = [
         Singularity(p, v) for p, v in zip(run(far_points(torus, (), 4)), [3, 5, 3, 5], strict=True)
     ]
