@@ -1,13 +1,37 @@
 """Features marked in the window."""
 
+import json
+
 import numpy as np
+import pytest
 from PySide6.QtCore import Qt
 
 from crossview.case import Case
 from crossview.scene.colors import FEATURE, PROBLEM
 from tests.windowing import count_color
 
+SPHERE = {
+    "surface": {"builtin": "cube_sphere", "n": 12},
+    "singularities": [
+        {"position": [x, y, z], "valence": 3}
+        for x in (-0.577, 0.577)
+        for y in (-0.577, 0.577)
+        for z in (-0.577, 0.577)
+    ],
+    "options": {"refine": 1},
+}
+
 SHIFT = Qt.KeyboardModifier.ShiftModifier
+
+
+@pytest.fixture
+def sphere(hand, tmp_path):
+    """The window with a sphere and the cube's eight, separatrices off."""
+    path = tmp_path / "sphere.json"
+    path.write_text(json.dumps(SPHERE))
+    hand.window.workspace.set_layer("separatrices", visible=False)
+    hand.open(path)
+    return hand
 
 
 def edge_middle(hand, edge):
@@ -25,8 +49,8 @@ def facing(hand, places, least=0.5):
     return places[(middle @ (eye / np.linalg.norm(eye)) > least) & away]
 
 
-def test_sharp_edges_are_shown_as_the_angle_changes_and_taken_when_it_rests(hand, tmp_path):
-    hand.open("sphere-cube")
+def test_sharp_edges_are_shown_as_the_angle_changes_and_taken_when_it_rests(sphere, tmp_path):
+    hand = sphere
     box = hand.window.surface_panel.features
     box.sharp.setChecked(True)
     assert len(hand.state.features) == 0
@@ -47,8 +71,8 @@ def test_sharp_edges_are_shown_as_the_angle_changes_and_taken_when_it_rests(hand
     assert count_color(hand.picture(), FEATURE) == 0
 
 
-def test_a_click_marks_an_edge_and_a_second_one_takes_the_mark_away(hand):
-    hand.open("sphere-cube")
+def test_a_click_marks_an_edge_and_a_second_one_takes_the_mark_away(sphere):
+    hand = sphere
     hand.trigger("mark-edges")
     surface = hand.state.document.surface
     edge = int(facing(hand, np.arange(len(surface.edges)), 0.8)[0])
@@ -68,8 +92,8 @@ def test_a_click_marks_an_edge_and_a_second_one_takes_the_mark_away(hand):
     assert len(hand.state.features) == 0
 
 
-def test_shift_marks_the_path_from_the_last_click_and_a_case_keeps_it(hand, tmp_path):
-    hand.open("sphere-cube")
+def test_shift_marks_the_path_from_the_last_click_and_a_case_keeps_it(sphere, tmp_path):
+    hand = sphere
     hand.trigger("mark-edges")
     surface = hand.state.document.surface
     ahead = facing(hand, np.arange(len(surface.edges)), 0.8)
@@ -90,8 +114,8 @@ def test_shift_marks_the_path_from_the_last_click_and_a_case_keeps_it(hand, tmp_
     assert hand.state.document.problem.features.edges.tolist() == marked
 
 
-def test_the_anisotropic_field_follows_what_the_isotropic_one_misses(hand):
-    hand.open("sphere-cube")
+def test_the_anisotropic_field_follows_what_the_isotropic_one_misses(sphere):
+    hand = sphere
     hand.trigger("mark-edges")
     surface = hand.state.document.surface
     ahead = facing(hand, np.arange(len(surface.edges)), 0.8)
@@ -110,8 +134,8 @@ def test_the_anisotropic_field_follows_what_the_isotropic_one_misses(hand):
     assert count_color(hand.picture(), FEATURE) > 0
 
 
-def test_natural_singularities_are_drawn_on_their_way_and_stopping_breaks_nothing(hand):
-    hand.open("sphere-cube")
+def test_natural_singularities_are_drawn_on_their_way_and_stopping_breaks_nothing(sphere):
+    hand = sphere
     before, solution = hand.state.document, hand.state.solution
     seen = []
     hand.window.workspace.changed.connect(
