@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from scipy.optimize import Bounds, LinearConstraint, milp
-from scipy.sparse import coo_array, csr_array, diags_array, eye_array, hstack, vstack
+from scipy.sparse import coo_array, csr_array, eye_array, hstack
 
 from solvers.collapse import Cut
 from solvers.tmesh import TMesh
@@ -89,29 +89,31 @@ def nearest_counts(
 
     Notes
     -----
-    The unknowns are counts n and deviations t, held above |n - wanted| between whole numbers
-    by three lines; so the program without integrality has whole solutions nearly everywhere.
+    The unknowns are counts n and, for each value measured, how much it is above and below its
+    floor: measured n = floor + a + b - c with 0 <= a <= 1 and b, c >= 0. They cost what
+    |n - wanted| does at whole numbers, and the program without integrality has whole solutions
+    nearly everywhere.
     """
     k, n = measured.shape
     value = measured @ wanted
     floor = np.floor(value)
-    part = value - floor
-    slopes = np.stack([-np.ones(k), 1 - 2 * part, np.ones(k)])
-    heights = np.stack([value, part - (1 - 2 * part) * floor, -value])
-    above = [hstack([-(diags_array(slope) @ measured), eye_array(k)]) for slope in slopes]
-    constraints = [LinearConstraint(vstack(above), heights.reshape(-1), np.inf)]
+    one = eye_array(k)
+    constraints = [LinearConstraint(hstack([measured, -one, -one, one]), floor, floor)]
     if balance.shape[0]:
-        none = csr_array((balance.shape[0], k))
+        none = csr_array((balance.shape[0], 3 * k))
         constraints.append(LinearConstraint(hstack([balance, none]), 0, 0))
     if cuts:
         column = np.concatenate([cut.arcs for cut in cuts])
         row = np.repeat(np.arange(len(cuts)), [len(cut.arcs) for cut in cuts])
-        sums = coo_array((np.ones(len(row)), (row, column)), shape=(len(cuts), n + k))
+        sums = coo_array((np.ones(len(row)), (row, column)), shape=(len(cuts), n + 3 * k))
         constraints.append(LinearConstraint(csr_array(sums), [cut.least for cut in cuts], np.inf))
     found = milp(
-        np.r_[np.zeros(n), np.ones(k)],
-        integrality=np.r_[np.ones(n), np.zeros(k)],
-        bounds=Bounds(np.r_[least, np.zeros(k)], np.inf),
+        np.concatenate([np.zeros(n), 1 - 2 * (value - floor), np.ones(2 * k)]),
+        integrality=np.concatenate([np.ones(n), np.zeros(3 * k)]),
+        bounds=Bounds(
+            np.concatenate([least, np.zeros(3 * k)]),
+            np.concatenate([np.full(n, np.inf), np.ones(k), np.full(2 * k, np.inf)]),
+        ),
         constraints=constraints,
         options={"time_limit": time_limit},
     )

@@ -29,6 +29,9 @@ NEAR_ENOUGH = 0.01
 MOST_ROUNDS = 40
 """How often what counts break is ruled out before the longest arcs concerned get an edge."""
 
+FAR = 1.5
+"""So many times the wanted number, twice, is the least that there is."""
+
 MOST_TRIALS = 8
 """Programs solved at most for a wanted number of quads."""
 
@@ -133,6 +136,7 @@ def quantize_to(
         if abs(best.n_quads - n_quads) <= NEAR_ENOUGH * n_quads or left < 0.1 * time_limit:
             break
         low, high = (length, high) if found.n_quads > n_quads else (low, length)
+        before = found.n_quads
         # The number goes with the inverse square; where that leads out of the bounds, halve.
         length = length * np.sqrt(found.n_quads / n_quads)
         if length <= low or length >= high:
@@ -143,6 +147,8 @@ def quantize_to(
             break
         if abs(found.n_quads - n_quads) < abs(best.n_quads - n_quads):
             best = found
+        if found.n_quads == before > FAR * n_quads:
+            break  # there are no fewer
     return best
 
 
@@ -158,10 +164,12 @@ def _counts(
     """Return the nearest counts that make a mesh, and whether they surely are.
 
     Whatever the nearest counts break becomes a condition, until they break nothing. When that
-    takes too long, the longest arc of every condition gets an edge, which needs no branching.
+    takes too long, the longest arc of every condition gets an edge, and only arcs are measured,
+    which needs no branching.
     """
     balance = balances(tmesh)
-    measured = csr_array(vstack([eye_array(tmesh.n_arcs), offsets(tmesh)]))
+    arcs = csr_array(eye_array(tmesh.n_arcs))
+    measured = csr_array(vstack([arcs, offsets(tmesh)]))
     least = least_counts(tmesh, collapse=collapse)
     end = time.monotonic() + 0.5 * time_limit
     cuts: list[Cut] = []
@@ -179,11 +187,13 @@ def _counts(
     for _ in range(MOST_ROUNDS):
         longest = [cut.arcs[np.argmax(wanted[cut.arcs])] for cut in cuts]
         least[longest] = np.maximum(least[longest], 1)
-        counts, _ = nearest_counts(wanted, measured, balance, least, cuts, 0.5 * time_limit)
+        counts, _ = nearest_counts(wanted, arcs, balance, least, cuts, 0.5 * time_limit)
         found = [] if counts is None else broken(tmesh, counts)
         if not found:
             break
         cuts += found
+    if counts is None and collapse:
+        return _counts(tmesh, wanted, False, time_limit)[0], False
     if counts is None:
         raise SolveError(
             "no numbers of quads were found for the arcs of the layout",
