@@ -2,7 +2,8 @@
 # make test   lint, types, import contracts and all tests
 # make bench  the performance figures
 # make table  the table of docs/anisotropic.md (minutes); CROSSVIEW_DATA names a folder of surfaces
-# make study  100 random configurations made valid: the table of docs/make_valid.md (minutes)
+# make study  100 random configurations made valid, the anticube from random starts: the tables of
+#             docs/make_valid.md and docs/natural.md (minutes)
 # make bench-peers  quads beside other meshers, on the same surfaces: the table of docs/quads.md (minutes)
 # make clean  forget the environment and every cache
 PYTHON ?= python3
@@ -41,6 +42,7 @@ table:
 study:
 	@$(MAKE) --no-print-directory $(VENV)/installed
 	$(VENV)/bin/python -m benchmarks.make_valid docs/make_valid.md
+	$(VENV)/bin/python -m benchmarks.anticube docs/natural.md
 
 bench-peers:
 	@$(MAKE) --no-print-directory $(VENV)/installed-peers
