@@ -255,7 +255,11 @@ def _integrated(solution: Solution) -> IntegratedField:
     if solver.discretization.delaunay.n_flips:  # the map lives on the surface's own triangles
         corners = solution.problem.chosen_corners
         features = solution.features
-        solver = IsotropicSolver(solution.surface, corners, flips=False, features=features)
+        made = IsotropicSolver(solution.surface, corners, flips=False, features=features)
+        solver = made
+        if solver.may_turn:  # each triangulation has its own direction to start from
+            found = made.solve(solution.singularities).theta - solution.field.theta
+            solver = made.turned(-float(np.angle(np.exp(4j * found).mean())) / 4)
     aligned = aligned_field(solver, solution.singularities)
     return IntegratedField(aligned, aligned.start)
 

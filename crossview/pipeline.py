@@ -65,11 +65,11 @@ class Pipeline:
         yield Progress("factorising", 0.1)
         isotropic = problem.method == "isotropic"
         with _timed(seconds, "factor"):
-            solver = stage.solver(flips=isotropic)
+            stage.solver(flips=isotropic)
         if isotropic:
             yield Progress("solving", 0.6)
             with _timed(seconds, "solve"):
-                field = solver.solve(stage.placed(problem))
+                field = stage.solver_for(problem, flips=True).solve(stage.placed(problem))
             yield Progress("checking the holonomy", 0.8)
             solution = _solution(stage, problem, field, seconds)
         else:
@@ -170,7 +170,7 @@ def _solution(
     """Put together what a method found with the holonomy and the verdict."""
     integrated = found if isinstance(found, IntegratedField) else None
     field = found if isinstance(found, CrossField) else found.field
-    solver = stage.solver(flips=integrated is None)
+    solver = stage.solver_for(problem, flips=integrated is None)
     singularities = stage.placed(problem)
     with _timed(seconds, "holonomy"):
         defects = solver.holonomy.defects(singularities)

@@ -20,6 +20,7 @@ from solvers.separatrices import Separatrices
 from solvers.singularities import Singularity
 from solvers.surface import TriSurface
 from solvers.triangulation import FloatArray, IntArray
+from solvers.turning import joining_turn
 from solvers.verdict import Verdict
 
 
@@ -121,6 +122,7 @@ class Stage:
         self.problem = problem
         self.refinement = refinement
         self._solvers: dict[bool, IsotropicSolver] = {}
+        self._turned: dict[tuple[bool, tuple[Singularity, ...]], IsotropicSolver] = {}
         self._aligned: dict[object, AlignedField] = {}
 
     def serves(self, problem: Problem) -> bool:
@@ -154,6 +156,16 @@ class Stage:
                 self._solvers[False] = made
         return self._solvers[flips]
 
+    def solver_for(self, problem: Problem, flips: bool) -> IsotropicSolver:
+        """The solver of a problem that is served, turned so that separatrices join where it may."""
+        solver, key = self.solver(flips), (flips, self.placed(problem))
+        if not solver.may_turn or not problem.singularities:
+            return solver
+        if key not in self._turned:
+            self._turned = {k: s for k, s in self._turned.items() if k[1] == key[1]}
+            self._turned[key] = solver.turned(joining_turn(solver.solve(key[1])))
+        return self._turned[key]
+
     def placed(self, problem: Problem) -> tuple[Singularity, ...]:
         """The singularities of a problem that is served, at the vertices made for them."""
         surface, vertices = self.refinement.surface, self.refinement.vertices
@@ -166,6 +178,7 @@ class Stage:
         """The aligned field of a problem that is served."""
         singularities, turns = self.placed(problem), problem.options.turns
         if (singularities, turns) not in self._aligned:
-            field = aligned_field(self.solver(flips=False), singularities, turns)
+            solver = self.solver_for(problem, flips=False)
+            field = aligned_field(solver, singularities, turns)
             self._aligned = {(singularities, turns): field}
         return self._aligned[singularities, turns]

@@ -43,7 +43,8 @@ class AlignedField:
     turns : tuple of int
         Quarter turns over each condition's path, besides those nearest to the isotropic field.
     turned : (m, 3) float array, optional
-        What aligns it with features; None without any.
+        What aligns it with features, or by how much the solver turns all crosses; None for
+        neither.
     """
 
     isotropic: CrossField
@@ -161,6 +162,8 @@ def aligned_field(
     if len(d.features):
         found = align_with_features(solver.holonomy, conjugate, field.defects, turns)
         turns, turned = found.turns.tolist(), found.turned
+    elif solver.turn:
+        turned = np.full(conjugate.shape, solver.turn)
     chosen = tuple(turns or [0] * len(field.defects))
     correction = solver.holonomy.harmonic_correction(QUARTER * np.array(chosen) - field.defects)
     integrability = Integrability(

@@ -98,8 +98,8 @@ def stops(traces: Traces, crossings: Crossings, longest: float = np.inf) -> Stop
 def left_of(crossings: Crossings, stopped: Stops) -> Crossings:
     """Return the crossings of what is kept of traces."""
     left = stopped.kept[crossings.trace].all(axis=1)
-    left &= (crossings.at <= stopped.at[crossings.trace]).all(axis=1)
-    return crossings[left]
+    reached = (crossings.at <= stopped.at[crossings.trace]).all(axis=1)
+    return crossings[np.flatnonzero(left & reached)]
 
 
 def _doubled(traces: Traces) -> BoolArray:

@@ -23,7 +23,7 @@ NEAR = 0.02
 ACCIDENT = 0.1
 """And if so near a passing by accident is less likely than this."""
 
-ALIKE = np.radians(0.5)
+ALIKE = np.radians(1.0)
 """Spread of the directions between nodes that count as one when a turn is chosen."""
 
 
@@ -201,7 +201,9 @@ def best_turn(traces: Traces, crossings: Crossings) -> float:
     if len(way) == 0:
         return 0.0
     angle = wrap(np.angle(way), QUARTER)
-    weight = 1 / np.abs(way) ** 2
+    # Nearer than some triangles it is the mesh that speaks.
+    far = np.abs(way) > 4 * traces.chart.edge_length
+    weight = far / np.maximum(np.abs(way), 1e-300) ** 2
     heaviest = np.argsort(-weight, kind="stable")[:2000]
     angle, weight = angle[heaviest], weight[heaviest]
 

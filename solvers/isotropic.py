@@ -8,6 +8,7 @@ solution, and a walk over a spanning tree of the triangles finds it.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from copy import copy
 from functools import cached_property
 
 import numpy as np
@@ -16,7 +17,7 @@ from solvers.crossfield import Convergence, CrossField
 from solvers.cut_graph import cut_graph
 from solvers.discretization import CLEARANCE, QUARTER, Discretization
 from solvers.embedded import split_offsets
-from solvers.errors import SingularityError
+from solvers.errors import CrossviewError, SingularityError
 from solvers.factorization import factorized
 from solvers.features import Features
 from solvers.holonomy import Holonomy
@@ -45,6 +46,11 @@ class IsotropicSolver:
     ------
     SolveError
         If the surface's triangles are too poor for the system to be solved.
+
+    Attributes
+    ----------
+    turn : float
+        Angle by which all crosses are turned, radians; see `turned`.
     """
 
     def __init__(
@@ -62,11 +68,31 @@ class IsotropicSolver:
         # H is unique up to a constant: the first vertex is pinned, the mean subtracted after.
         self.factorization = factorized(matrix[1:, 1:])
         self._mass = lumped_mass(self.discretization.triangulation)
+        self.turn = 0.0
 
     @cached_property
     def holonomy(self) -> Holonomy:
         """The holonomy defects of any configuration on this surface."""
         return Holonomy(self.discretization, self.factorization, self.corners)
+
+    @property
+    def may_turn(self) -> bool:
+        """Whether neither a boundary nor a feature fixes the direction of the crosses."""
+        return not self.surface.boundary_loops and not len(self.discretization.features)
+
+    def turned(self, angle: float) -> IsotropicSolver:
+        """Return the same solver with all crosses of its fields turned by an angle, radians.
+
+        Raises
+        ------
+        CrossviewError
+            If a boundary or a feature fixes their direction.
+        """
+        if not self.may_turn:
+            raise CrossviewError("a boundary or a feature fixes the direction of the crosses")
+        other = copy(self)
+        other.turn = self.turn + angle
+        return other
 
     def solve(self, singularities: Sequence[Singularity]) -> CrossField:
         """Return the field of a configuration, by one back-substitution and one walk.
@@ -96,7 +122,7 @@ class IsotropicSolver:
         h -= self._mass @ h / self._mass.sum()
         offsets = self._offsets(h, singularities, faces, weights)
         d = self.discretization
-        theta = d.walk(offsets)
+        theta = d.walk(offsets) + self.turn
         defects = d.defects(theta, offsets)
         return CrossField(
             surface=self.surface,

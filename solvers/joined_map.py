@@ -48,10 +48,10 @@ class JoinedMap:
 
     @property
     def may_turn(self) -> bool:
-        """Whether nothing fixes the direction of the crosses, and turned ones are as good."""
+        """Whether nothing has fixed the direction of the crosses, and turned ones are as good."""
         aspect = self.integrated.field.half_log_aspect
-        bound = bool(self.surface.boundary_loops) or len(self.features) > 0
-        return not bound and not aspect.any()
+        chosen = self.integrated.aligned.turned is not None
+        return not chosen and not self.surface.boundary_loops and not aspect.any()
 
     @property
     def features(self) -> Features:

@@ -65,8 +65,8 @@ class LiveBase:
         """Keep the factor that `problem`, not isotropic, is being solved with."""
         given, placed = problem.singularities, stage.placed(problem)
         known = {s.point: at.point for s, at in zip(given, placed, strict=True)}
-        lift = stage.refinement.lift
-        return cls(problem.surface, stage.solver(flips=False), lift, problem.marking, known)
+        solver, lift = stage.solver_for(problem, flips=False), stage.refinement.lift
+        return cls(problem.surface, solver, lift, problem.marking, known)
 
     @property
     def surface(self) -> TriSurface:

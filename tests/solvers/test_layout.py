@@ -5,12 +5,14 @@ import pytest
 
 from solvers.aligned import IntegratedField, aligned_field
 from solvers.arrangement import LayoutError
+from solvers.errors import CrossviewError
 from solvers.isotropic import IsotropicSolver
 from solvers.layout import QuadLayout, quad_layout
 from solvers.primitives import BUILTIN
 from solvers.progress import run
-from solvers.singularities import default_corners
+from solvers.singularities import Singularity, default_corners
 from solvers.surface import TriSurface
+from solvers.turning import joining_turn
 from tests.solvers.layouts import FIELDS, at_places, cube_corners, integrated, layout_of
 from tests.solvers.suite import random_configuration
 
@@ -140,3 +142,30 @@ def test_separatrices_of_a_disk_join_its_singularities_along_the_diagonals() -> 
     joining = separatrices.ends == 0
     np.testing.assert_allclose(gaps[joining], np.sqrt(0.5), atol=1e-9)
     np.testing.assert_allclose(np.linalg.norm(ends[1][~joining], axis=1), 1.0, atol=5e-3)
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.3, -0.7])
+def test_crosses_that_nothing_fixes_turn_to_where_separatrices_join(angle: float) -> None:
+    surface = BUILTIN["sphere"](subdivisions=4)
+    solver = IsotropicSolver(surface, flips=False).turned(angle)
+    singularities = [
+        Singularity(surface.point_at_vertex(_nearest(surface, p)), 3) for p in cube_corners()
+    ]
+    turned = solver.turned(joining_turn(solver.solve(singularities)))
+    field = turned.solve(singularities)
+    # on the great circle between two corners of the cube a branch runs along it
+    one, other = cube_corners()[:2]
+    middle = surface.closest_point((one + other) / 2).face
+    u, v = field.u[middle], field.v[middle]
+    along = (other - one) / np.linalg.norm(other - one)
+    assert max(abs(u @ along), abs(v @ along)) > np.cos(np.radians(2))
+
+
+def test_a_boundary_holds_the_crosses() -> None:
+    solver = IsotropicSolver(BUILTIN["disk"](edge_length=0.2))
+    with pytest.raises(CrossviewError, match="boundary"):
+        solver.turned(0.1)
+
+
+def _nearest(surface: TriSurface, place: np.ndarray) -> int:
+    return int(np.argmin(np.linalg.norm(surface.vertices - place, axis=1)))
