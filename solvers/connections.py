@@ -183,27 +183,34 @@ def _steps(start: int, end: int) -> tuple[IntArray, ComplexArray]:
     return np.array([end]), np.array([-1.0 + 0j])
 
 
-def best_turn(traces: Traces, crossings: Crossings) -> float:
+def best_turn(traces: Traces, crossings: Crossings, most: float) -> float:
     """Return the angle to turn all crosses by so that most neighbouring nodes lie on lines.
 
     Every crossing of traces from two nodes tells the direction from one to the other in the map;
     directions that agree vote together, near nodes more.
 
+    Parameters
+    ----------
+    traces, crossings
+        The traces and where they cross.
+    most : float
+        Largest angle, radians.
+
     Returns
     -------
     float
-        Radians, in (-pi/4, pi/4].
+        Radians.
     """
     chords = traces.chords
     a, b = crossings.chord.T
     to_right = (chords.axis[b] - chords.axis[a]) % 4 == 3
     way = crossings.at[:, 0] + 1j * np.where(to_right, 1, -1) * crossings.at[:, 1]
-    if len(way) == 0:
-        return 0.0
     angle = wrap(np.angle(way), QUARTER)
     # Nearer than some triangles it is the mesh that speaks.
-    far = np.abs(way) > 4 * traces.chart.edge_length
-    weight = far / np.maximum(np.abs(way), 1e-300) ** 2
+    counts = (np.abs(way) > 4 * traces.chart.edge_length) & (np.abs(angle) <= most)
+    weight = counts / np.maximum(np.abs(way), 1e-300) ** 2
+    if not counts.any():
+        return 0.0
     heaviest = np.argsort(-weight, kind="stable")[:2000]
     angle, weight = angle[heaviest], weight[heaviest]
 

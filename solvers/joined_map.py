@@ -10,8 +10,11 @@ from solvers.arrangement import LayoutError
 from solvers.features import Features
 from solvers.seamless import SeamlessFit
 from solvers.surface import TriSurface
-from solvers.tracing import Chart
+from solvers.tracing import QUARTER, Chart
 from solvers.triangulation import IntArray
+
+LITTLE = np.radians(2)
+"""By how much the map may turn crosses that were turned before it was made."""
 
 SPOILT = 0.03
 """Distance of a map from what the field asks for beyond which separatrices are not joined."""
@@ -47,11 +50,14 @@ class JoinedMap:
         return self.integrated.field.surface
 
     @property
-    def may_turn(self) -> bool:
-        """Whether nothing has fixed the direction of the crosses, and turned ones are as good."""
-        aspect = self.integrated.field.half_log_aspect
-        chosen = self.integrated.aligned.turned is not None
-        return not chosen and not self.surface.boundary_loops and not aspect.any()
+    def play(self) -> float:
+        """By how much all crosses may be turned and are as good, radians: 0 if something holds
+        them, little if they have been turned to be as they are.
+        """
+        bound = bool(self.surface.boundary_loops) or len(self.features) > 0
+        if bound or self.integrated.field.half_log_aspect.any():
+            return 0.0
+        return QUARTER / 2 if self.integrated.aligned.turned is None else LITTLE
 
     @property
     def features(self) -> Features:

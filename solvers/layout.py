@@ -122,8 +122,8 @@ def quad_layout(integrated: IntegratedField) -> Generator[Progress, None, QuadLa
     singular = singular_nodes(map_.chart, integrated.field)
     featured = feature_nodes(map_.chart, map_.features, {n.vertex for n in singular})
     drawing = Drawing(map_, singular, featured, SHORT)
-    if map_.may_turn:
-        map_.turn(best_turn(drawing.traces, drawing.crossings))
+    if map_.play:
+        map_.turn(best_turn(drawing.traces, drawing.crossings, map_.play))
         drawing = drawing.again()
     for _ in range(JOININGS):
         yield Progress("joining separatrices", 0.6)

@@ -6,7 +6,7 @@ from solvers.connections import best_turn
 from solvers.crossfield import CrossField
 from solvers.crossings import crossings
 from solvers.separatrices import singular_nodes
-from solvers.tracing import Chart, starts_at, trace
+from solvers.tracing import QUARTER, Chart, starts_at, trace
 
 FAR = 1.5
 """Length of the curves that are looked at, in square roots of the area in the map."""
@@ -29,4 +29,4 @@ def joining_turn(field: CrossField) -> float:
     nodes = singular_nodes(chart, field)
     far = FAR * float(chart.area) ** 0.5
     traces = trace(chart, nodes, starts_at(chart, nodes), 0.0, far)
-    return best_turn(traces, crossings(chart, traces.chords))
+    return best_turn(traces, crossings(chart, traces.chords), QUARTER / 2)
