@@ -86,6 +86,13 @@ def quantize(
     SolveError
         If time was up before any counts were found.
     """
+    return _quantized(tmesh, edge_length, collapse, time_limit, [])
+
+
+def _quantized(
+    tmesh: TMesh, edge_length: float, collapse: bool, time_limit: float, cuts: list[Cut]
+) -> Quantization:
+    """Do what `quantize` says under conditions that earlier programs led to, and add to them."""
     if not np.isfinite(edge_length) or edge_length <= 0:
         raise CrossviewError(f"the edge length must be a positive number, not {edge_length!r}")
     if tmesh.area / edge_length**2 > MOST_QUADS:
@@ -95,7 +102,7 @@ def quantize(
             "choose longer edges",
         )
     wanted = tmesh.lengths / edge_length
-    counts, optimal = _counts(tmesh, wanted, collapse, time_limit)
+    counts, optimal = _counts(tmesh, wanted, collapse, time_limit, cuts)
     off = np.concatenate([counts - wanted, offsets(tmesh) @ (counts - wanted)])
     return Quantization(
         counts, edge_length, number_of_quads(tmesh, counts), float(np.abs(off).sum()), optimal
@@ -130,7 +137,8 @@ def quantize_to(
     length = np.sqrt(tmesh.area / n_quads)
     low, high = 0.0, np.inf
     end = time.monotonic() + time_limit
-    best = found = quantize(tmesh, float(length), collapse=collapse, time_limit=time_limit)
+    cuts: list[Cut] = []
+    best = found = _quantized(tmesh, float(length), collapse, time_limit, cuts)
     for _ in range(MOST_TRIALS - 1):
         left = end - time.monotonic()
         if abs(best.n_quads - n_quads) <= NEAR_ENOUGH * n_quads or left < 0.1 * time_limit:
@@ -142,7 +150,7 @@ def quantize_to(
         if length <= low or length >= high:
             length = np.sqrt(low * high)
         try:
-            found = quantize(tmesh, float(length), collapse=collapse, time_limit=left)
+            found = _quantized(tmesh, float(length), collapse, left, cuts)
         except SolveError:
             break
         if abs(found.n_quads - n_quads) < abs(best.n_quads - n_quads):
@@ -159,20 +167,20 @@ def number_of_quads(tmesh: TMesh, counts: IntArray) -> int:
 
 
 def _counts(
-    tmesh: TMesh, wanted: FloatArray, collapse: bool, time_limit: float
+    tmesh: TMesh, wanted: FloatArray, collapse: bool, time_limit: float, kept: list[Cut]
 ) -> tuple[IntArray, bool]:
     """Return the nearest counts that make a mesh, and whether they surely are.
 
     Whatever the nearest counts break becomes a condition, until they break nothing. When that
     takes too long, the longest arc of every condition gets an edge, and only arcs are measured,
-    which needs no branching.
+    which needs no branching. Conditions that hold for all lengths are kept for the next time.
     """
     balance = balances(tmesh)
     arcs = csr_array(eye_array(tmesh.n_arcs))
     measured = csr_array(vstack([arcs, offsets(tmesh)]))
     least = least_counts(tmesh, collapse=collapse)
     end = time.monotonic() + 0.5 * time_limit
-    cuts: list[Cut] = []
+    cuts = list(kept)
     for _ in range(MOST_ROUNDS):
         left = end - time.monotonic()
         if left <= 0:
@@ -184,6 +192,7 @@ def _counts(
         if not found:
             return counts, optimal
         cuts += found
+        kept += [cut for cut in found if cut.least == 1]
     for _ in range(MOST_ROUNDS):
         longest = [cut.arcs[np.argmax(wanted[cut.arcs])] for cut in cuts]
         least[longest] = np.maximum(least[longest], 1)
@@ -193,7 +202,7 @@ def _counts(
             break
         cuts += found
     if counts is None and collapse:
-        return _counts(tmesh, wanted, False, time_limit)[0], False
+        return _counts(tmesh, wanted, False, time_limit, kept)[0], False
     if counts is None:
         raise SolveError(
             "no numbers of quads were found for the arcs of the layout",
