@@ -130,7 +130,7 @@ def theirs(peer: str, surface: TriSurface) -> Made | str:
 
 def row(surface: TriSurface, made: Made) -> list[str]:
     """The cells of the table about a mesh."""
-    quality = scaled_jacobian(made.vertices[made.quads], _outward(surface, made))
+    quality = scaled_jacobian(made.vertices[made.quads], _outward(made))
     return [
         f"{len(made.quads)}",
         f"{len(made.triangles)}",
@@ -143,10 +143,13 @@ def row(surface: TriSurface, made: Made) -> list[str]:
     ]
 
 
-def _outward(surface: TriSurface, made: Made) -> np.ndarray:
-    """The surface's normals (q, 3) next to quads."""
-    centres = made.vertices[made.quads].mean(axis=1)
-    return surface.vertex_normals[cKDTree(surface.vertices).query(centres)[1]]
+def _outward(made: Made) -> np.ndarray:
+    """Normals (q, 3) of what is around each quad: one that is turned over disagrees with them."""
+    corners = made.vertices[made.quads]
+    own = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+    normals = np.zeros_like(made.vertices)
+    np.add.at(normals, made.quads, own[:, None])
+    return normals[made.quads].sum(axis=1)
 
 
 def _boundary(surface: TriSurface, made: Made) -> str:
