@@ -332,6 +332,10 @@ ACTIONS: tuple[ActionSpec, ...] = (
         separated=True,
     ),
     ActionSpec(
+        "reset-docks", "Reset panels", "View", lambda w: w.arrangement.reset(),
+        tip="Put all panels back to where they stand at first",
+    ),
+    ActionSpec(
         "palette", "Command palette…", "Help", lambda w: w.show_palette(), ("Ctrl+Shift+P",),
         "search", "Find any action by name",
     ),

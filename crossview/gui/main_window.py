@@ -15,7 +15,8 @@ from PySide6.QtWidgets import QMainWindow, QMessageBox, QStackedWidget, QVBoxLay
 import crossview
 from crossview.gui.action_table import ACTIONS
 from crossview.gui.actions import Actions
-from crossview.gui.docks import add_docks, size_docks
+from crossview.gui.arrangement import Arrangement
+from crossview.gui.docks import add_docks
 from crossview.gui.empty_state import EmptyState
 from crossview.gui.files import Files
 from crossview.gui.menus import Menus, make_toolbar
@@ -94,7 +95,7 @@ class MainWindow(QMainWindow):
         self.method_box: MethodBox = MethodBox(self.workspace)
         self.toolbar = make_toolbar(self)
         self.status = Status(self)
-        self._sized = False
+        self.arrangement: Arrangement = Arrangement(self)
         self.workspace.changed.connect(self._show_state)
         self.workspace.opened.connect(self._opened)
         self.viewport.menu_wanted.connect(self._show_menu)
@@ -150,14 +151,13 @@ class MainWindow(QMainWindow):
                 return
 
     def showEvent(self, event: QShowEvent) -> None:
-        """Size the docks once there is a size to share."""
+        """Arrange the docks once there is a size to share."""
         super().showEvent(event)
-        if not self._sized:
-            self._sized = True
-            size_docks(self)
+        self.arrangement.show()
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """End the background and free what VTK holds."""
+        self.arrangement.keep()
         self.workspace.close()
         self.viewport.close_plotter()
         super().closeEvent(event)
