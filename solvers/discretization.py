@@ -334,6 +334,23 @@ class Discretization:
         turned = theta[h // 3] + offsets.reshape(-1)[h] - self.triangulation.directions[h]
         return wrap(turned, QUARTER)
 
+    def turn_to_features(self, theta: FloatArray, offsets: FloatArray) -> float:
+        """Return the one turn of all crosses that brings them nearest to the features.
+
+        Parameters
+        ----------
+        theta, offsets
+            As of `closing`.
+
+        Returns
+        -------
+        float
+            Radians in (-pi/4, pi/4]; of the mean fourth power, weighted by length.
+        """
+        lengths = self.triangulation.lengths.reshape(-1)[self.feature_halfedges]
+        power = lengths @ np.exp(4j * self.feature_angles(theta, offsets))
+        return -float(np.angle(power)) / 4
+
     def feature_misalignment(self, theta: FloatArray, offsets: FloatArray) -> FloatArray:
         """Return the largest angle, with its sign, between crosses and each feature curve.
 

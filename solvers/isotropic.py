@@ -40,7 +40,8 @@ class IsotropicSolver:
     flips : bool, optional
         As in `Discretization`.
     features : Features, optional
-        Of the surface; the field is not aligned with them, but says how far off it is.
+        Of the surface. The field is not aligned with them, but says how far off it is; without
+        a boundary all crosses are turned alike, so that it is off as little as may be.
 
     Raises
     ------
@@ -123,6 +124,8 @@ class IsotropicSolver:
         offsets = self._offsets(h, singularities, faces, weights)
         d = self.discretization
         theta = d.walk(offsets) + self.turn
+        if len(d.features) and not self.surface.boundary_loops:
+            theta += d.turn_to_features(theta, offsets)
         defects = d.defects(theta, offsets)
         return CrossField(
             surface=self.surface,

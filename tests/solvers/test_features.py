@@ -16,6 +16,7 @@ from solvers.progress import run
 from solvers.refinement import refine_at, refine_everywhere
 from solvers.singularities import Singularity, default_corners
 from solvers.surface import TriSurface
+from solvers.triangulation import wrap
 from tests.solvers.suite import at_vertices
 
 
@@ -205,6 +206,20 @@ def test_the_isotropic_field_reports_its_misalignment():
     slope = np.degrees(np.arctan2(abs(run_along[2]), np.linalg.norm(run_along[:2])))
     expected = min(slope, 90 - slope)
     assert misalignment(field) == pytest.approx(expected, abs=1)
+
+
+@pytest.mark.parametrize("flips", [True, False])
+def test_where_nothing_else_fixes_the_crosses_they_turn_to_the_features(flips):
+    surface = cube()
+    slanted = TriSurface(surface.vertices, np.roll(surface.faces, 1, axis=1))
+    features = Features(slanted, sharp_edges(slanted, 40))
+    corners = at_vertices(slanted, features.corners.tolist(), [3] * 8)
+    field = IsotropicSolver(slanted, flips=flips, features=features).solve(corners)
+    assert misalignment(field) < 1e-8
+    plain = IsotropicSolver(slanted, flips=flips).solve(corners)
+    off = np.degrees(wrap(field.theta - plain.theta, np.pi / 2))
+    assert np.ptp(off) < 1e-9
+    assert np.abs(off).max() > 1  # the first edge of the first triangle is a diagonal
 
 
 def test_a_marked_circle_is_followed_where_the_isotropic_field_is_not():
