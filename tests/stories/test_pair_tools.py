@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPointF, Qt
 
 from crossview.scene.colors import valence_color
 from tests.windowing import Hand
@@ -82,6 +82,17 @@ def test_refusals_are_told_in_one_line_and_change_nothing(hand: Hand) -> None:
     hand.wait()
     assert "no room" in hand.state.message.text
     assert hand.state.document is before
+
+
+def test_a_pair_without_a_place_goes_where_there_is_room(hand: Hand) -> None:
+    hand.open("disk-4")
+    before = places(hand)
+    hand.move(QPointF(2, 2))  # beside the disk
+    hand.trigger("add-pair")
+    hand.wait(lambda: len(hand.state.singularities) == 6)
+    middle = places(hand)[4:].mean(axis=0)
+    room = min(1 - np.linalg.norm(middle), np.linalg.norm(before - middle, axis=1).min())
+    assert room > 0.3
 
 
 def test_mirror_and_rotate(hand: Hand, tmp_path) -> None:
