@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator
+from collections.abc import Generator, Sequence
 from pathlib import Path
 
 from crossview.case import Case
@@ -11,6 +11,7 @@ from crossview.cli.terminal import say, say_json, watch
 from crossview.meshing import MeshOptions, quads_of
 from crossview.pipeline import Solution, solve_case
 from crossview.staging import staged
+from solvers.errors import CrossviewError
 from solvers.progress import Progress
 from solvers.quadmesh import QuadMesh
 
@@ -30,6 +31,7 @@ def solve(
     edge_length: float | None = None,
     target_quads: int | None = None,
     collapse: Flag = False,
+    formats: str | None = None,
     quiet: Flag = False,
     as_json: Json = False,
 ) -> None:
@@ -59,6 +61,9 @@ def solve(
         About how many quads; 5000 if neither is given.
     collapse
         Let parts of the layout vanish where that gives a coarser mesh.
+    formats
+        Of the quads: some of obj, vtk, vtu, ply, gltf, glb and msh (Gmsh, with named boundaries),
+        such as vtk,msh; vtk,obj if not given.
     quiet
         Show neither progress nor summary.
     as_json
@@ -67,9 +72,10 @@ def solve(
     from crossview.export.report import quads_summary, report, summary
 
     wanted = mesh_options(quads, edge_length, target_quads, collapse, "add --quads")
+    kinds = _formats(formats, quads)
     found = chosen_case(case, method, component, repair, features)
     with staged(output) as staging:
-        results = watch(_solved_into(staging, found, wanted), quiet)
+        results = watch(_solved_into(staging, found, wanted, kinds), quiet)
     if as_json:
         reports = [report(solution, made) for solution, made in results]
         say_json(reports if found.options.component == "all" else reports[0])
@@ -81,8 +87,23 @@ def solve(
         say(f"wrote {Path(output)}")
 
 
+def _formats(text: str | None, quads: bool) -> Sequence[str]:
+    """The formats that quads are wanted in."""
+    from crossview.export.meshes import check_kind
+    from crossview.export.report import FORMATS
+
+    if text is None:
+        return FORMATS
+    if not quads:
+        raise CrossviewError("--formats is about quads", "", "add --quads")
+    names = [name.strip().lower().removeprefix(".") for name in text.split(",")]
+    for name in names:
+        check_kind(Path(f"quads.{name}"))
+    return names
+
+
 def _solved_into(
-    directory: Path, case: Case, wanted: MeshOptions | None
+    directory: Path, case: Case, wanted: MeshOptions | None, formats: Sequence[str]
 ) -> Generator[Progress, None, Results]:
     from crossview.export.report import write_files
 
@@ -97,5 +118,5 @@ def _solved_into(
         one_of_many = case.options.component == "all"
         folder = directory / f"component-{number}" if one_of_many else directory
         folder.mkdir(exist_ok=True)
-        write_files(solution, folder, made)
+        write_files(solution, folder, made, formats)
     return results

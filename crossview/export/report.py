@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +26,8 @@ from crossview.staging import staged
 from solvers.quadmesh import QuadMesh
 
 REPORT = "report.json"
+FORMATS = ("vtk", "obj")
+"""Of quad meshes, if no others are asked for."""
 
 
 def report(solution: Solution, quads: QuadMesh | None = None) -> dict[str, Any]:
@@ -67,6 +70,7 @@ def report(solution: Solution, quads: QuadMesh | None = None) -> dict[str, Any]:
         "isotropically_valid": solution.valid,
         "boundary_misalignment_degrees": _floats(np.degrees(_by_loop(solution))),
         "features": _features(solution),
+        "forced_corners": _forced_corners(solution),
         **_integrability(solution),
         "layout": _layout(solution),
         **({} if quads is None else {"quads": _quads(quads)}),
@@ -122,12 +126,15 @@ def _defects(solution: Solution) -> str:
 
 
 def write_solution(
-    solution: Solution, directory: str | Path, quads: QuadMesh | None = None
+    solution: Solution,
+    directory: str | Path,
+    quads: QuadMesh | None = None,
+    formats: Sequence[str] = FORMATS,
 ) -> None:
     """Write report.json and surface, crosses, cut_graph, singularities and separatrices as .vtp.
 
-    With quads also layout.vtp, quads.vtk and quads.obj. All or nothing: the files are moved to
-    `directory` when the last of them is complete.
+    With quads also layout.vtp, and the quads in each of the formats. All or nothing: the files are
+    moved to `directory` when the last of them is complete.
 
     Raises
     ------
@@ -135,10 +142,15 @@ def write_solution(
         `directory` cannot be made or written.
     """
     with staged(directory) as staging:
-        write_files(solution, staging, quads)
+        write_files(solution, staging, quads, formats)
 
 
-def write_files(solution: Solution, directory: Path, quads: QuadMesh | None = None) -> None:
+def write_files(
+    solution: Solution,
+    directory: Path,
+    quads: QuadMesh | None = None,
+    formats: Sequence[str] = FORMATS,
+) -> None:
     """Write the files of `write_solution` one by one into an existing folder."""
     separatrix_lines(solution).save(directory / "separatrices.vtp")  # may turn the field
     field_surface(solution).save(directory / "surface.vtp")
@@ -150,8 +162,8 @@ def write_files(solution: Solution, directory: Path, quads: QuadMesh | None = No
     if quads is not None:
         if solution.derived.layout is not None:
             layout_patches(solution.derived.layout).save(directory / "layout.vtp")
-        write_mesh(quads, directory / "quads.vtk")
-        write_mesh(quads, directory / "quads.obj")
+        for suffix in formats:
+            write_mesh(quads, directory / f"quads.{suffix}")
     text = json.dumps(report(solution, quads), indent=2, ensure_ascii=False, allow_nan=False)
     (directory / REPORT).write_text(text + "\n", encoding="utf-8")
 
@@ -237,6 +249,14 @@ def _features(solution: Solution) -> list[dict[str, Any]]:
         }
         for curve, angle in zip(solution.features.curves, off, strict=True)
     ]
+
+
+def _forced_corners(solution: Solution) -> list[list[float]]:
+    """Where on features the singularities on both sides do not fit; none for one size."""
+    if solution.integrated is None:
+        return []
+    forced = solution.integrated.aligned.forced_corners
+    return [_floats(position) for position in solution.surface.vertices[forced]]
 
 
 def _by_loop(solution: Solution) -> np.ndarray[Any, Any]:

@@ -92,6 +92,14 @@ def test_surfaces_without_singularities_have_regular_meshes(meshed, name, chi):
     assert abs(quads["quads"] - 1500) < 150
 
 
+def test_the_formats_of_the_quads_may_be_chosen(crossview, tmp_path):
+    asked = ["solve", "square", "-o", tmp_path, "--quads", "--target-quads", "9"]
+    assert crossview(*asked, "--formats", "msh,GLB, ply").status == 0
+    written = {p.suffix for p in tmp_path.iterdir() if p.stem == "quads"}
+    assert written == {".msh", ".glb", ".ply"}
+    assert meshio.gmsh.read(tmp_path / "quads.msh").field_data["boundary 1"].tolist() == [1, 1]
+
+
 def test_the_edge_length_is_that_on_the_surface(meshed):
     surface = BUILTIN["annulus"]()
     report = meshed("annulus", (), "--edge-length", 0.05, "--quiet")
@@ -202,6 +210,9 @@ def test_an_isotropic_field_that_misses_a_handle_is_refused(crossview, tmp_path,
         (["--edge-length", 0.1], "--edge-length is about quads: add --quads"),
         (["--target-quads", 9], "--target-quads is about quads: add --quads"),
         (["--collapse"], "--collapse is about quads: add --quads"),
+        (["--formats", "msh"], "--formats is about quads: add --quads"),
+        (["--quads", "--formats", "msh,stl"], '".stl" files (quads.stl): use one of obj vtk'),
+        (["--quads", "--formats", ""], 'to "" files'),
         (
             ["--quads", "--edge-length", 0.1, "--target-quads", 9],
             "both an edge length and a number",
