@@ -22,7 +22,10 @@ from solvers.integrability import Integrability
 from solvers.isotropic import IsotropicSolver
 from solvers.seamless import SeamlessMap, seamless_map
 from solvers.singularities import Singularity
-from solvers.triangulation import FloatArray
+from solvers.triangulation import FloatArray, IntArray
+
+FORCED = np.radians(60)
+"""By how much the corners of quads may miss the angle they fill on a feature."""
 
 AS_IT_IS = Convergence()
 """Of a field that no iteration changed."""
@@ -59,6 +62,24 @@ class AlignedField:
         conjugate = self.isotropic.H[i.triangulation.faces] + fraction * self.correction
         turned = None if self.turned is None else fraction * self.turned
         return Integrability(i.discretization, conjugate, i.quarter_turns, i.features, turned)
+
+    @cached_property
+    def forced_corners(self) -> IntArray:
+        """Regular vertices of features where quads meet in another number than the angles ask for.
+
+        There the singularities on both sides of a curve do not fit it.
+        """
+        i = self.integrability
+        t, features = i.triangulation, i.discretization.features
+        sector, angle, vertex = features.sectors
+        # Over a corner, edge to edge, the crosses turn as from one midpoint to the other.
+        turned = t.angles - (i.offsets[:, [2, 0, 1]] - i.offsets)
+        off = np.abs(np.bincount(sector, turned.reshape(-1)) - angle)
+        regular = features.degrees > 0
+        faces = self.isotropic.surface.faces
+        for s in self.isotropic.singularities:
+            regular[faces[s.point.face, int(np.argmax(s.point.barycentric))]] = False
+        return np.unique(vertex[(off > FORCED) & regular[vertex]])
 
     @property
     def start(self) -> FloatArray:

@@ -89,7 +89,7 @@ class Features:
         return np.bincount(self.ends.reshape(-1), minlength=self.surface.n_vertices)
 
     @cached_property
-    def _sectors(self) -> tuple[IntArray, FloatArray, IntArray]:
+    def sectors(self) -> tuple[IntArray, FloatArray, IntArray]:
         """What features and boundary cut the neighbourhoods of vertices into.
 
         The sector of each halfedge's first corner (3 m,), the angle of each sector and its vertex.
@@ -115,7 +115,7 @@ class Features:
 
         Half the difference of the angles on both sides: what is left when a cone is unfolded.
         """
-        _, angle, vertex = self._sectors
+        _, angle, vertex = self.sectors
         passed = (self.degrees == 2) & ~self.surface.boundary_vertices
         of_passed = np.flatnonzero(passed[vertex])
         by_vertex = of_passed[np.argsort(vertex[of_passed], kind="stable")]
@@ -202,7 +202,7 @@ class Features:
 
     def _spurs(self) -> IntArray:
         """Return the curves that are the shorter side of a narrow sector."""
-        sector, angle, _ = self._sectors
+        sector, angle, _ = self.sectors
         t = self.surface.triangulation
         curve = np.full(len(t.twin), -1, dtype=np.int64)
         curve[self.halfedges] = curve[t.twin[self.halfedges]] = self.curve_of

@@ -239,6 +239,24 @@ def test_a_marked_circle_is_followed_where_the_isotropic_field_is_not():
     assert integrated.field.energy < 1e-10
 
 
+def test_a_curve_that_the_singularities_do_not_fit_is_followed_and_told():
+    # a circle on the cylinder with a valence 3 on one side and a valence 5 on the other
+    surface = BUILTIN["cylinder"](n=48)
+    features = circle(surface, 0.0)
+
+    def pair(one, other):
+        places = (([1, 0, one], 3), ([-1, 0, other], 5))
+        return [Singularity(surface.closest_point(p), valence) for p, valence in places]
+
+    split, _ = solved(surface, features, pair(0.5, -0.5))
+    assert misalignment(split.field) < 1e-8
+    assert split.field.max_closing_error < 1e-10
+    assert len(split.aligned.forced_corners) > 0
+    beside, _ = solved(surface, features, pair(0.5, 0.5))
+    assert misalignment(beside.field) < 1e-8
+    assert len(beside.aligned.forced_corners) == 0
+
+
 def test_imposed_turns_are_kept_and_free_ones_are_chosen():
     surface = BUILTIN["annulus"](n=48)
     radius = np.linalg.norm(surface.vertices, axis=1)
