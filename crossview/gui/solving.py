@@ -119,6 +119,7 @@ class Solving:
             self._store.set(field=state.solution.field, base=base, cut_graph=None)
             self.pursue()
         else:
+            self._store.set(field=None, cut_graph=None)
             self.follow()
 
     def _progressed(self, progress: Progress | None) -> None:

@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QApplication
 
 from crossview.case import Case
 from crossview.scene.colors import FEATURE, PROBLEM
@@ -166,3 +167,17 @@ def test_natural_singularities_follow_sharp_edges_and_curvature(hand):
     surface = hand.state.document.surface
     places = surface.positions([s.point for s in hand.state.singularities])
     assert np.abs(places[:, 1]).max() < 0.3
+
+
+def test_a_stopped_natural_field_leaves_nothing_where_there_was_none(hand):
+    hand.open("sphere")
+    assert hand.state.field is None
+    hand.window.actions_table.by_name["natural-mbo"].trigger()
+    while hand.state.field is None:
+        QApplication.processEvents()
+    assert hand.state.moving is not None
+    hand.window.actions_table.by_name["stop"].trigger()
+    hand.wait()
+    assert hand.state.field is None
+    assert hand.state.singularities == ()
+    assert "nothing was changed" in hand.state.message.text

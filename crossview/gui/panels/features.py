@@ -112,4 +112,14 @@ def _found(state: WindowState) -> str:
     if trial is None and field is not None:
         off = float(np.degrees(np.abs(field.feature_misalignment).max(initial=0.0)))
         text += f", off by up to {degrees(off)}" if off > state.tolerance else ", followed"
+    if trial is None and (forced := _forced(state)):
+        text += f"; singularities do not fit at {count(forced, 'vertex', 'vertices')}"
     return text
+
+
+def _forced(state: WindowState) -> int:
+    """Return at how many vertices the field shown must turn a corner that no angle asks for."""
+    solution = state.solution
+    if solution is None or solution.integrated is None or state.field is not solution.field:
+        return 0
+    return len(solution.integrated.aligned.forced_corners)
