@@ -71,7 +71,6 @@ def report(solution: Solution, quads: QuadMesh | None = None) -> dict[str, Any]:
         "boundary_misalignment_degrees": _floats(np.degrees(_by_loop(solution))),
         "features": _features(solution),
         "forced_corners": _forced_corners(solution),
-        "forced_corners": _forced_corners(solution),
         **_integrability(solution),
         "layout": _layout(solution),
         **({} if quads is None else {"quads": _quads(quads)}),
@@ -250,14 +249,6 @@ def _features(solution: Solution) -> list[dict[str, Any]]:
         }
         for curve, angle in zip(solution.features.curves, off, strict=True)
     ]
-
-
-def _forced_corners(solution: Solution) -> list[list[float]]:
-    """Where on features the singularities on both sides do not fit; none for one size."""
-    if solution.integrated is None:
-        return []
-    forced = solution.integrated.aligned.forced_corners
-    return [_floats(position) for position in solution.surface.vertices[forced]]
 
 
 def _forced_corners(solution: Solution) -> list[list[float]]:
