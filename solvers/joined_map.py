@@ -16,6 +16,9 @@ from solvers.triangulation import IntArray
 LITTLE = np.radians(2)
 """By how much the map may turn crosses that were turned before it was made."""
 
+MOST = 100
+"""Separatrices that are joined at once."""
+
 SPOILT = 0.03
 """Distance of a map from what the field asks for beyond which separatrices are not joined."""
 
@@ -83,15 +86,14 @@ class JoinedMap:
         """Fit the map again so that also combinations of images vanish: of the first as many rows
         as do not spoil it. Return whether it was.
         """
-        before = self._fit
-        allowed = max(SPOILT, 2 * before.map.distance)
-        count = rows.shape[0]
+        before, kept = self._fit, 0 if self._rows is None else self._rows.shape[0]
+        rows = csc_array(rows[:MOST])
+        every = before.joining(rows if self._rows is None else vstack([self._rows, rows]).tocsc())
+        count, most = rows.shape[0], max(SPOILT, 2 * before.map.distance)
         while count:
-            more = rows[:count]
-            joined = more if self._rows is None else csc_array(vstack([self._rows, more]))
-            fit = before.joined(joined)
-            if len(fit.map.flipped) <= len(before.map.flipped) and fit.map.distance < allowed:
-                self._rows, self._fit = joined, fit
+            some = every.first(kept + count)
+            if (fit := before.joined(some, most)) is not None:
+                self._rows, self._fit = some.rows, fit
                 self.chart = self._chart()
                 return True
             count //= 2

@@ -22,8 +22,12 @@ from solvers.triangulation import FloatArray, IntArray, IntrinsicTriangulation
 LEAST_WEIGHT = 0.05
 """Edges opposite right or obtuse angles still count this much, in cotangents."""
 
-STIFFER, ROUNDS = 5.0, 6
-"""Growth of the weight of triangles turned over, and how often it grows at most."""
+STIFFER, ROUNDS, PATIENCE = 5.0, 6, 2
+"""Growth of the weight of triangles turned over, how often it grows at most, and how often in vain.
+"""
+
+FEW = 20
+"""Triangles that joining may turn over before they are mended."""
 
 HOPELESS = 0.05
 """Share of triangles turned over beyond which mending them is not tried."""
@@ -93,44 +97,89 @@ class SeamlessFit:
         self._upright = _wanted_by_means(integrability, x)
         self._stiffer = np.zeros(t.n_faces, dtype=bool)
         self._fit = _Fit(_Conditions(integrability), self._wanted, self._weight)
-        self.map = self._mended(None)
+        none = csc_array((0, 6 * t.n_faces))
+        self.map = self._mended(self._fit.joined(self._fit.joining(none)), none)
 
     @property
     def mended(self) -> int:
         """Number of triangles made stiffer."""
         return int(self._stiffer.sum())
 
-    def joined(self, rows: csc_array) -> SeamlessFit:
-        """Return the nearest map on which more linear combinations of images vanish.
+    def joining(self, rows: csc_array) -> Joining:
+        """Return what `joined` needs to make linear combinations of images vanish.
 
         Parameters
         ----------
         rows : (k, 6 m) sparse array
-            Coefficients of the images' components; rows that contradict others are met as well
-            as can be.
+            Coefficients of the images' components.
         """
+        return self._fit.joining(rows)
+
+    def joined(self, joining: Joining, most: float) -> SeamlessFit | None:
+        """Return the nearest map on which more linear combinations of images vanish.
+
+        Rows that contradict others are met as well as can be.
+
+        Parameters
+        ----------
+        joining : Joining
+            The combinations, prepared by this fit.
+        most : float
+            Largest distance of the map from what the field asks for.
+
+        Returns
+        -------
+        SeamlessFit or None
+            None if the map would be farther off, or have more triangles turned over.
+        """
+        found = self._fit.joined(joining)
+        if found.distance > most or len(found.flipped) > len(self.map.flipped) + FEW:
+            return None
         other = copy(self)
         other._wanted, other._weight = self._wanted.copy(), self._weight.copy()
         other._stiffer = self._stiffer.copy()
-        other.map = other._mended(rows)
-        return other
+        other.map = other._mended(found, joining.rows)
+        return other if len(other.map.flipped) <= len(self.map.flipped) else None
 
-    def _mended(self, rows: csc_array | None) -> SeamlessMap:
+    def _mended(self, found: SeamlessMap, rows: csc_array) -> SeamlessMap:
         """Return the map with the fewest triangles turned over, making those stiffer."""
-        best = found = self._fit.joined(rows)
+        best, in_vain = found, 0
         for _ in range(ROUNDS):
             over = found.flipped
-            if len(over) == 0 or len(over) > HOPELESS * len(self._stiffer):
+            hopeless = len(over) > HOPELESS * len(self._stiffer) or in_vain == PATIENCE
+            if len(over) == 0 or hopeless:
                 break
             self._stiffer[over] = True
             h = (3 * over[:, None] + np.arange(3)).reshape(-1)
             self._wanted[h] = self._upright[h]
             self._weight[h] *= STIFFER
             self._fit = _Fit(self._fit.conditions, self._wanted, self._weight)
-            found = self._fit.joined(rows)
+            found = self._fit.joined(self._fit.joining(rows))
+            in_vain += 1
             if len(found.flipped) < len(best.flipped):
-                best = found
+                best, in_vain = found, 0
         return best
+
+
+@dataclass(frozen=True, eq=False)
+class Joining:
+    """Linear combinations of images that are to vanish, and the moves that change each.
+
+    Parameters
+    ----------
+    rows : (k, 6 m) sparse array
+        Coefficients of the components of halfedges' images.
+    wanted, moves : (k, 2 ne) float arrays
+        The same for edges' images, and the least closed change of those for each.
+    """
+
+    rows: csc_array
+    wanted: FloatArray
+    moves: FloatArray
+
+    def first(self, count: int) -> Joining:
+        """Return the first ones."""
+        return Joining(csc_array(self.rows[:count]), self.wanted[:count], self.moves[:count])
 
 
 class _Conditions:
@@ -178,12 +227,17 @@ class _Fit:
         distance = np.sqrt(self._diagonal @ change**2 / asked)
         return SeamlessMap((self.conditions.spread @ images).reshape(-1, 3, 2), float(distance))
 
-    def joined(self, rows: csc_array | None) -> SeamlessMap:
-        """Return the nearest map on which also `rows` of its images vanish."""
+    def joining(self, rows: csc_array) -> Joining:
+        """Return the rows of halfedges' images (k, 6 m) with the moves that change each."""
+        wanted = csc_array(rows @ self.conditions.spread).toarray()
+        moves = [self._closed(self._inverse * row) for row in wanted]
+        return Joining(rows, wanted, np.array(moves).reshape(wanted.shape))
+
+    def joined(self, joining: Joining) -> SeamlessMap:
+        """Return the nearest map on which also these combinations of its images vanish."""
         images = self._closed(self._asked)
-        if rows is not None:
-            wanted = csc_array(rows @ self.conditions.spread).toarray()
-            moves = np.array([self._closed(self._inverse * row) for row in wanted])
+        wanted, moves = joining.wanted, joining.moves
+        if len(wanted):
             force = np.linalg.lstsq(wanted @ moves.T, wanted @ images, rcond=1e-10)[0]
             images = images - force @ moves
         return self._as_map(images)
