@@ -32,7 +32,10 @@ NEAR = np.radians(1e-3)
 NUDGE = 0.1
 """How far singularities are nudged, in shortest edges of their triangles."""
 
-TOO_FEW = "too few singularities may move"
+LEAST_HOLD = 1e-6
+"""Change of a defect, radians, by a move of the square root of the area: less is no hold on it."""
+
+TOO_FEW = "too few singularities may move, or only some far away"
 CROWDED = "singularities would come too near to each other or to the boundary"
 STALLED = "no small move brings them nearer"
 UNSETTLED = "the surface is too coarse for its defects to be told"
@@ -274,7 +277,7 @@ class Search:
         weight = QUARTER * self._index * self._free
         matrix = np.asarray((gradients * weight[:, None]).reshape(len(remaining), -1))
         scale = np.linalg.svd(matrix, compute_uv=False)
-        if matrix.shape[1] < len(remaining) or scale[-1] * self._unit < 1e-4:
+        if matrix.shape[1] < len(remaining) or scale[-1] * self._unit < LEAST_HOLD:
             raise Blocked(TOO_FEW, remaining)
         return matrix
 
