@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 import numpy as np
 from scipy.optimize import Bounds, LinearConstraint, milp
 from scipy.sparse import coo_array, csr_array, eye_array, hstack
@@ -9,6 +11,9 @@ from scipy.sparse import coo_array, csr_array, eye_array, hstack
 from solvers.collapse import Cut
 from solvers.tmesh import TMesh
 from solvers.triangulation import FloatArray, IntArray
+
+WINDOWS = (8.0, 64.0, np.inf)
+"""How far from what is wanted counts are looked for; nearer ones are found much faster."""
 
 
 def balances(tmesh: TMesh) -> csr_array:
@@ -107,15 +112,25 @@ def nearest_counts(
         row = np.repeat(np.arange(len(cuts)), [len(cut.arcs) for cut in cuts])
         sums = coo_array((np.ones(len(row)), (row, column)), shape=(len(cuts), n + 3 * k))
         constraints.append(LinearConstraint(csr_array(sums), [cut.least for cut in cuts], np.inf))
-    found = milp(
-        np.concatenate([np.zeros(n), 1 - 2 * (value - floor), np.ones(2 * k)]),
-        integrality=np.concatenate([np.ones(n), np.zeros(3 * k)]),
-        bounds=Bounds(
-            np.concatenate([least, np.zeros(3 * k)]),
-            np.concatenate([np.full(n, np.inf), np.ones(k), np.full(2 * k, np.inf)]),
-        ),
-        constraints=constraints,
-        options={"time_limit": time_limit},
-    )
-    counts = None if found.x is None else np.rint(found.x[:n]).astype(np.int64)
-    return counts, found.status == 0
+    cost = np.concatenate([np.zeros(n), 1 - 2 * (value - floor), np.ones(2 * k)])
+    whole = np.concatenate([np.ones(n), np.zeros(3 * k)])
+    start, left = time.monotonic(), time_limit
+    for window in WINDOWS:
+        low = np.maximum(least, np.floor(wanted) - window)
+        high = np.maximum(least, np.ceil(wanted)) + window
+        found = milp(
+            cost,
+            integrality=whole,
+            bounds=Bounds(
+                np.concatenate([low, np.zeros(3 * k)]),
+                np.concatenate([high, np.ones(k), np.full(2 * k, np.inf)]),
+            ),
+            constraints=constraints,
+            options={"time_limit": left},
+        )
+        left = time_limit - (time.monotonic() - start)
+        if found.x is not None:
+            return np.rint(found.x[:n]).astype(np.int64), found.status == 0
+        if left <= 0:
+            break
+    return None, False

@@ -9,7 +9,7 @@ arcs alone make a minimum-cost flow through the rectangles, so branching has lit
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.sparse import csr_array, eye_array, vstack
@@ -31,6 +31,9 @@ MOST_ROUNDS = 40
 
 FAR = 1.5
 """So many times the wanted number, twice, is the least that there is."""
+
+STRAIGHTENING = 0.2
+"""Share of the time limit for counts that are nearest with `offsets`, besides those without."""
 
 MOST_TRIALS = 8
 """Programs solved at most for a wanted number of quads."""
@@ -86,27 +89,9 @@ def quantize(
     SolveError
         If time was up before any counts were found.
     """
-    return _quantized(tmesh, edge_length, collapse, time_limit, [])
-
-
-def _quantized(
-    tmesh: TMesh, edge_length: float, collapse: bool, time_limit: float, cuts: list[Cut]
-) -> Quantization:
-    """Do what `quantize` says under conditions that earlier programs led to, and add to them."""
-    if not np.isfinite(edge_length) or edge_length <= 0:
-        raise CrossviewError(f"the edge length must be a positive number, not {edge_length!r}")
-    if tmesh.area / edge_length**2 > MOST_QUADS:
-        raise CrossviewError(
-            f"edges of {edge_length:.3g} make {tmesh.area / edge_length**2:.3g} quads",
-            f"at most {MOST_QUADS:.3g}",
-            "choose longer edges",
-        )
-    wanted = tmesh.lengths / edge_length
-    counts, optimal = _counts(tmesh, wanted, collapse, time_limit, cuts)
-    off = np.concatenate([counts - wanted, offsets(tmesh) @ (counts - wanted)])
-    return Quantization(
-        counts, edge_length, number_of_quads(tmesh, counts), float(np.abs(off).sum()), optimal
-    )
+    cuts: list[Cut] = []
+    found = _nearest(tmesh, edge_length, collapse, time_limit, cuts)
+    return _straightened(found, tmesh, collapse, STRAIGHTENING * time_limit, cuts)
 
 
 def quantize_to(
@@ -138,7 +123,7 @@ def quantize_to(
     low, high = 0.0, np.inf
     end = time.monotonic() + time_limit
     cuts: list[Cut] = []
-    best = found = _quantized(tmesh, float(length), collapse, time_limit, cuts)
+    best = found = _nearest(tmesh, float(length), collapse, time_limit, cuts)
     for _ in range(MOST_TRIALS - 1):
         left = end - time.monotonic()
         if abs(best.n_quads - n_quads) <= NEAR_ENOUGH * n_quads or left < 0.1 * time_limit:
@@ -150,14 +135,16 @@ def quantize_to(
         if length <= low or length >= high:
             length = np.sqrt(low * high)
         try:
-            found = _quantized(tmesh, float(length), collapse, left, cuts)
+            found = _nearest(tmesh, float(length), collapse, left, cuts)
         except SolveError:
             break
         if abs(found.n_quads - n_quads) < abs(best.n_quads - n_quads):
             best = found
         if found.n_quads == before > FAR * n_quads:
             break  # there are no fewer
-    return best
+    straight = _straightened(best, tmesh, collapse, STRAIGHTENING * time_limit, cuts)
+    off = max(abs(best.n_quads - n_quads), NEAR_ENOUGH * n_quads)
+    return straight if abs(straight.n_quads - n_quads) <= off else best
 
 
 def number_of_quads(tmesh: TMesh, counts: IntArray) -> int:
@@ -166,47 +153,101 @@ def number_of_quads(tmesh: TMesh, counts: IntArray) -> int:
     return int((sides[:, 0] * sides[:, 1]).sum())
 
 
-def _counts(
-    tmesh: TMesh, wanted: FloatArray, collapse: bool, time_limit: float, kept: list[Cut]
-) -> tuple[IntArray, bool]:
-    """Return the nearest counts that make a mesh, and whether they surely are.
+def _nearest(
+    tmesh: TMesh, edge_length: float, collapse: bool, time_limit: float, cuts: list[Cut]
+) -> Quantization:
+    """Return counts near to the arcs' lengths alone; conditions found on the way join `cuts`.
 
-    Whatever the nearest counts break becomes a condition, until they break nothing. When that
-    takes too long, the longest arc of every condition gets an edge, and only arcs are measured,
-    which needs no branching. Conditions that hold for all lengths are kept for the next time.
+    When the nearest take too long, the longest arc of every condition gets an edge, which needs no
+    branching.
     """
-    balance = balances(tmesh)
+    if not np.isfinite(edge_length) or edge_length <= 0:
+        raise CrossviewError(f"the edge length must be a positive number, not {edge_length!r}")
+    if tmesh.area / edge_length**2 > MOST_QUADS:
+        raise CrossviewError(
+            f"edges of {edge_length:.3g} make {tmesh.area / edge_length**2:.3g} quads",
+            f"at most {MOST_QUADS:.3g}",
+            "choose longer edges",
+        )
     arcs = csr_array(eye_array(tmesh.n_arcs))
-    measured = csr_array(vstack([arcs, offsets(tmesh)]))
+    wanted = tmesh.lengths / edge_length
+    half = 0.5 * time_limit
+    counts, optimal = _unbroken(tmesh, wanted, arcs, collapse, half, cuts)
     least = least_counts(tmesh, collapse=collapse)
-    end = time.monotonic() + 0.5 * time_limit
-    cuts = list(kept)
+    ruled = list(cuts)
     for _ in range(MOST_ROUNDS):
-        left = end - time.monotonic()
-        if left <= 0:
+        if counts is not None:
             break
-        counts, optimal = nearest_counts(wanted, measured, balance, least, cuts, left)
-        if counts is None:
-            break
-        found = broken(tmesh, counts)
-        if not found:
-            return counts, optimal
-        cuts += found
-        kept += [cut for cut in found if cut.least == 1]
-    for _ in range(MOST_ROUNDS):
-        longest = [cut.arcs[np.argmax(wanted[cut.arcs])] for cut in cuts]
+        longest = [cut.arcs[np.argmax(wanted[cut.arcs])] for cut in ruled]
         least[longest] = np.maximum(least[longest], 1)
-        counts, _ = nearest_counts(wanted, arcs, balance, least, cuts, 0.5 * time_limit)
-        found = [] if counts is None else broken(tmesh, counts)
-        if not found:
+        tried, _ = nearest_counts(wanted, arcs, balances(tmesh), least, ruled, half)
+        if tried is None:
             break
-        cuts += found
+        found = broken(tmesh, tried)
+        ruled += found
+        counts = None if found else tried
     if counts is None and collapse:
-        return _counts(tmesh, wanted, False, time_limit, kept)[0], False
+        return _nearest(tmesh, edge_length, False, time_limit, [])
     if counts is None:
         raise SolveError(
             "no numbers of quads were found for the arcs of the layout",
             f"within {time_limit:g} s",
             "choose shorter edges",
         )
-    return counts, False
+    return _quantization(tmesh, counts, edge_length, optimal)
+
+
+def _straightened(
+    found: Quantization, tmesh: TMesh, collapse: bool, time_limit: float, cuts: list[Cut]
+) -> Quantization:
+    """Return counts that are nearest with `offsets`, too, if there are any in time."""
+    across = offsets(tmesh)
+    if across.shape[0] == 0:
+        return found
+    measured = csr_array(vstack([eye_array(tmesh.n_arcs), across]))
+    wanted = tmesh.lengths / found.edge_length
+    counts, optimal = _unbroken(tmesh, wanted, measured, collapse, time_limit, cuts)
+    if counts is not None:
+        straight = _quantization(tmesh, counts, found.edge_length, optimal)
+        if straight.deviation <= found.deviation:
+            return straight
+    return replace(found, optimal=False)
+
+
+def _unbroken(
+    tmesh: TMesh,
+    wanted: FloatArray,
+    measured: csr_array,
+    collapse: bool,
+    time_limit: float,
+    cuts: list[Cut],
+) -> tuple[IntArray | None, bool]:
+    """Return the nearest counts that make a mesh, if any in time, and whether they surely are.
+
+    Whatever the nearest counts break becomes a condition, until they break nothing. Those that
+    hold for all lengths join `cuts`.
+    """
+    balance, least = balances(tmesh), least_counts(tmesh, collapse=collapse)
+    end = time.monotonic() + time_limit
+    ruled = list(cuts)
+    for _ in range(MOST_ROUNDS):
+        left = end - time.monotonic()
+        if left <= 0:
+            break
+        counts, optimal = nearest_counts(wanted, measured, balance, least, ruled, left)
+        if counts is None:
+            break
+        found = broken(tmesh, counts)
+        if not found:
+            return counts, optimal
+        ruled += found
+        cuts += [cut for cut in found if cut.least == 1]
+    return None, False
+
+
+def _quantization(
+    tmesh: TMesh, counts: IntArray, edge_length: float, optimal: bool
+) -> Quantization:
+    off = counts - tmesh.lengths / edge_length
+    total = float(np.abs(off).sum() + np.abs(offsets(tmesh) @ off).sum())
+    return Quantization(counts, edge_length, number_of_quads(tmesh, counts), total, optimal)
