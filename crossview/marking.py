@@ -9,7 +9,9 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from crossview.case_parts import PlacedFeatures, Polyline, Position
-from solvers.features import EdgePaths, Features, no_features, sharp_edges
+from solvers.edge_paths import EdgePaths
+from solvers.features import Features, no_features
+from solvers.sharp_edges import sharp_edges
 from solvers.surface import TriSurface
 from solvers.triangulation import IntArray
 

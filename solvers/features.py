@@ -11,17 +11,12 @@ from functools import cached_property
 
 import numpy as np
 from scipy.sparse import coo_array, csr_array
-from scipy.sparse.csgraph import connected_components, depth_first_order, dijkstra
+from scipy.sparse.csgraph import connected_components, depth_first_order
 
-from solvers.errors import CrossviewError
-from solvers.graphs import HalfedgeGraph, walk_back
 from solvers.refinement import Refinement
 from solvers.singularities import TIE
 from solvers.surface import TriSurface, barycentric
 from solvers.triangulation import FloatArray, IntArray, next_halfedge, previous_halfedge
-
-FLAT = np.radians(160)
-"""Largest angle of a triangle that is next to flat."""
 
 ON_SIDE = 1e-7
 """Weight of a corner of a triangle below which a place lies on the side opposite."""
@@ -248,117 +243,6 @@ def no_features(surface: TriSurface) -> Features:
         Where.
     """
     return Features(surface, np.empty(0, dtype=np.int64))
-
-
-def dihedral_angles(surface: TriSurface) -> FloatArray:
-    """Return by how much the surface bends over each edge.
-
-    Parameters
-    ----------
-    surface : TriSurface
-        The surface.
-
-    Returns
-    -------
-    (ne,) float array
-        Angle between the normals of both triangles, radians; 0 on the boundary.
-    """
-    left, right = surface.edge_faces.T
-    one, other = surface.face_normals[left], surface.face_normals[right]
-    sine = np.linalg.norm(np.cross(one, other), axis=1)
-    angle = np.arctan2(sine, (one * other).sum(axis=1))
-    return np.where(right >= 0, angle, 0.0)
-
-
-def sharp_edges(surface: TriSurface, degrees: float) -> IntArray:
-    """Return the edges over which the surface bends by more than an angle.
-
-    The normal of a next to flat triangle means little: where its longest edge is sharp, the two
-    others are not. Curves of sharp edges that leave a longer one at too sharp an angle are left
-    out, as `Features.without_spurs`.
-
-    Parameters
-    ----------
-    surface : TriSurface
-        The surface.
-    degrees : float
-        The angle.
-
-    Returns
-    -------
-    (k,) int array
-        Among the surface's edges.
-    """
-    sharp = dihedral_angles(surface) > np.radians(degrees)
-    angles = surface.triangulation.angles
-    flat = np.flatnonzero(angles.max(axis=1) > FLAT)
-    longest = (np.argmax(angles[flat], axis=1) + 1) % 3
-    edges = surface.face_edges[flat]
-    along = edges[np.arange(len(flat)), longest]
-    over = edges[sharp[along]].reshape(-1)
-    sharp[np.setdiff1d(over, along)] = False
-    return no_features(surface).united(np.flatnonzero(sharp)).without_spurs().edges
-
-
-class EdgePaths:
-    """Shortest paths along the edges of a surface.
-
-    Parameters
-    ----------
-    surface : TriSurface
-        The surface.
-    """
-
-    def __init__(self, surface: TriSurface) -> None:
-        t = surface.triangulation
-        h = np.arange(len(t.twin))
-        border = np.flatnonzero(t.twin < 0)
-        self._edge = surface.face_edges.reshape(-1)
-        self._graph = HalfedgeGraph(
-            t.n_vertices,
-            np.concatenate([t.tail, t.head[border]]),
-            np.concatenate([t.head, t.tail[border]]),
-            np.concatenate([t.lengths.reshape(-1), t.lengths.reshape(-1)[border]]),
-            np.concatenate([h, border]),
-        )
-
-    def through(self, vertices: IntArray) -> IntArray:
-        """Return the edges of the shortest path through vertices, one after the other.
-
-        Parameters
-        ----------
-        vertices : (k,) int array
-            Equal ones that follow each other count once.
-
-        Returns
-        -------
-        (l,) int array
-            Among the surface's edges, in order.
-
-        Raises
-        ------
-        CrossviewError
-            If no path joins two of them.
-        """
-        stops = vertices[np.flatnonzero(np.diff(vertices, prepend=-1))]
-        pairs = np.stack([stops[:-1], stops[1:]], axis=1)
-        steps = np.zeros(len(pairs), dtype=bool)
-        if len(pairs):
-            steps = np.asarray(self._graph.matrix[pairs[:, 0], pairs[:, 1]]).reshape(-1) > 0
-        legs = [
-            pair if step else self._between(int(pair[0]), int(pair[1]))
-            for pair, step in zip(pairs, steps, strict=True)
-        ]
-        rows = np.concatenate([leg[:-1] for leg in legs] or [stops[:0]])
-        columns = np.concatenate([leg[1:] for leg in legs] or [stops[:0]])
-        return self._edge[self._graph.halfedges(rows, columns)]
-
-    def _between(self, start: int, end: int) -> IntArray:
-        _, predecessor = dijkstra(self._graph.matrix, indices=start, return_predecessors=True)
-        path = np.array(walk_back(predecessor, end)[::-1], dtype=np.int64)
-        if path[0] != start:
-            raise CrossviewError("no path of edges joins two vertices", f"{start} and {end}")
-        return path
 
 
 def _along_chains(n: int, links: IntArray, turn: FloatArray) -> tuple[IntArray, IntArray]:

@@ -29,6 +29,7 @@ from solvers.errors import CrossviewError
 from solvers.factorization import factorized
 from solvers.features import Features, no_features
 from solvers.points import SurfacePoint
+from solvers.principal import principal_crosses
 from solvers.progress import Progress
 from solvers.singularities import Singularity, default_corners
 from solvers.surface import TriSurface
@@ -46,9 +47,6 @@ CURVATURE_WEIGHT = 200.0
 Where they are as clear as on average, the crosses follow them over the fourteenth part of the
 surface's size.
 """
-
-LEAST_DIFFERENCE = 0.1
-"""Mean of (k1 - k2)^2, in those of k1^2 + k2^2, below which little draws."""
 
 ITERATIONS = 400
 MOMENTUM = 0.9
@@ -158,37 +156,6 @@ def natural_singularities(
         "globally-optimal": problem.globally_optimal,
     }[method](np.random.default_rng(seed))
     return _as_singularities(surface, *problem.indices(z))
-
-
-def principal_crosses(surface: TriSurface) -> ComplexArray:
-    """Return the crosses of principal curvature.
-
-    Parameters
-    ----------
-    surface : TriSurface
-        The surface.
-
-    Returns
-    -------
-    (ne,) complex array
-        As `CrossesStep.z`, but of length (k1 - k2)^2, so scaled that its mean square is about 1;
-        next to 0 where the curvatures hardly differ anywhere.
-    """
-    t = surface.triangulation
-    normals = surface.vertex_normals[surface.faces]
-    # The shape operator: the derivative of the normal, linear in each triangle, in its frame.
-    parts = np.stack([np.einsum("mid,md->mi", normals, axis) for axis in surface.face_frames])
-    shape = np.einsum("ami,mib->mab", parts, t.hat_gradients)
-    deviation = (shape[:, 0, 0] - shape[:, 1, 1]) + 1j * (shape[:, 0, 1] + shape[:, 1, 0])
-    along = np.repeat(t.areas * deviation**2, 3) * np.exp(-4j * t.directions)
-    edge = surface.face_edges.reshape(-1)
-    area = np.bincount(edge, np.repeat(t.areas, 3))
-    z = (np.bincount(edge, along.real) + 1j * np.bincount(edge, along.imag)) / area
-    mean = np.sqrt(np.average(np.abs(z) ** 2, weights=area))
-    # Differences far below the curvature itself, as on a faceted sphere, are errors of the mesh.
-    curvature = np.average((shape**2).sum(axis=(1, 2)), weights=t.areas)
-    scale = mean + LEAST_DIFFERENCE * curvature
-    return np.asarray(z / scale if scale > 0 else z)
 
 
 class _Crosses:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from solvers.features import EdgePaths
+from solvers.edge_paths import EdgePaths
 from solvers.points import SurfacePoint
 from solvers.surface import TriSurface
 from solvers.triangulation import IntArray

@@ -4,8 +4,9 @@ import numpy as np
 
 from crossview.scene import SceneView, layers_named
 from crossview.scene.colors import FEATURE, PROBLEM
-from solvers.features import Features, sharp_edges
+from solvers.features import Features
 from solvers.primitives import BUILTIN
+from solvers.sharp_edges import sharp_edges
 from solvers.surface import TriSurface
 from tests.windowing import count_color
 

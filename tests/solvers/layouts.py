@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 
 from solvers.aligned import IntegratedField, aligned_field
-from solvers.features import Features, sharp_edges
+from solvers.features import Features
 from solvers.integrable import anisotropic_field
 from solvers.isotropic import IsotropicSolver
 from solvers.layout import QuadLayout, quad_layout
@@ -16,6 +16,7 @@ from solvers.points import SurfacePoint
 from solvers.primitives import BUILTIN
 from solvers.progress import run
 from solvers.refinement import refine_at
+from solvers.sharp_edges import sharp_edges
 from solvers.singularities import Singularity, default_corners
 from solvers.surface import TriSurface
 from tests.solvers.suite import separated

@@ -6,14 +6,16 @@ import pytest
 from crossview.case import Case
 from crossview.problem import Problem
 from solvers.aligned import IntegratedField, aligned_field
+from solvers.edge_paths import EdgePaths
 from solvers.feature_alignment import nearest_integers
-from solvers.features import EdgePaths, Features, no_features, sharp_edges
+from solvers.features import Features, no_features
 from solvers.integrable import anisotropic_field
 from solvers.isotropic import IsotropicSolver
 from solvers.natural import natural_singularities
 from solvers.primitives import BUILTIN
 from solvers.progress import run
 from solvers.refinement import refine_at, refine_everywhere
+from solvers.sharp_edges import sharp_edges
 from solvers.singularities import Singularity, default_corners
 from solvers.surface import TriSurface
 from solvers.triangulation import wrap

@@ -4,10 +4,12 @@ import numpy as np
 import pytest
 
 from solvers.errors import CrossviewError
-from solvers.features import Features, sharp_edges
-from solvers.natural import METHODS, CrossesStep, natural_singularities, principal_crosses
+from solvers.features import Features
+from solvers.natural import METHODS, CrossesStep, natural_singularities
 from solvers.primitives import BUILTIN
+from solvers.principal import principal_crosses
 from solvers.progress import relayed, run
+from solvers.sharp_edges import sharp_edges
 from solvers.singularities import default_corners, index_budget
 from solvers.surface import TriSurface
 from solvers.triangulation import wrap
