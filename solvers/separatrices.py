@@ -136,7 +136,17 @@ def field_separatrices(field: CrossField, longest: float = LONGEST) -> Separatri
     traces = trace(chart, nodes, starts_at(chart, nodes), chart.edge_length, reach)
     traces = replace(traces, ends=np.where(_along_boundary(traces), LENGTH, traces.ends))
     stopped = stops(traces, crossings(chart, traces.chords))
-    return as_curves(field.surface, nodes, np.ones(len(nodes), dtype=bool), traces, stopped)
+    curves = as_curves(field.surface, nodes, np.ones(len(nodes), dtype=bool), traces, stopped)
+    # A singularity inside a triangle was taken to be at the nearest vertex.
+    place = field.surface.vertices[[node.vertex for node in nodes]]
+    place[: len(field.singularities)] = field.surface.positions(
+        [s.point for s in field.singularities]
+    )
+    kept = stopped.kept
+    curves.points[curves.offsets[:-1]] = place[traces.starts.node[kept]]
+    met = curves.ends == SINGULARITY
+    curves.points[curves.offsets[1:][met] - 1] = place[traces.end_node[kept][met]]
+    return curves
 
 
 def _along_boundary(traces: Traces) -> BoolArray:

@@ -4,12 +4,15 @@ import numpy as np
 import pytest
 
 from solvers.crossings import crossings, ends_of
+from solvers.isotropic import IsotropicSolver
+from solvers.points import SurfacePoint
 from solvers.primitives import BUILTIN
 from solvers.separatrices import field_separatrices, singular_nodes
+from solvers.singularities import Singularity
 from solvers.straight import barycentric_in, walk
 from solvers.surface import TriSurface
 from solvers.tracing import BORDER, NODE, Chart, node_at, starts_at, trace
-from tests.solvers.layouts import FIELDS, layout_of
+from tests.solvers.layouts import FIELDS, at_places, layout_of
 
 
 def flat_chart(surface: TriSurface) -> Chart:
@@ -124,3 +127,26 @@ def test_walks_do_not_leave_over_the_boundary() -> None:
     reached = np.einsum("kc,kcd->kd", weights, surface.vertices[surface.faces[found]])
     np.testing.assert_allclose(reached[:, 0], surface.vertices[:, 0].max(), atol=1e-12)
     np.testing.assert_allclose(reached[:, 1], surface.barycentres[:, 1], atol=1e-12)
+
+
+def test_curves_of_a_dragged_singularity_start_where_it_is() -> None:
+    surface = BUILTIN["disk"](edge_length=0.1)
+    solver = IsotropicSolver(surface)
+    face = surface.closest_point([0.3, 0.1, 0.0]).face
+    dragged = Singularity(SurfacePoint(face, (0.5, 0.3, 0.2)), 3)
+    others = at_places(surface, [[-0.5, 0.2, 0], [0.1, -0.5, 0], [-0.1, 0.6, 0]], [3] * 3)
+    field = solver.solve([dragged, *at_vertices_near(surface, others)])
+    curves = field_separatrices(field)
+    starts = curves.points[curves.offsets[:-1]]
+    ends = curves.points[curves.offsets[1:] - 1][curves.ends == 0]
+    gaps = np.linalg.norm(np.concatenate([starts, ends]) - surface.position(dragged.point), axis=1)
+    assert (gaps < 1e-12).sum() == 3
+
+
+def at_vertices_near(surface: TriSurface, given: list[Singularity]) -> list[Singularity]:
+    places = surface.positions([s.point for s in given])
+    gaps = np.linalg.norm(surface.vertices[:, None] - places[None], axis=2)
+    return [
+        Singularity(surface.point_at_vertex(int(v)), s.valence)
+        for v, s in zip(gaps.argmin(axis=0), given, strict=True)
+    ]
