@@ -27,7 +27,7 @@ NEAR_ENOUGH = 0.01
 """Relative distance from a wanted number of quads at which looking further ends."""
 
 MOST_ROUNDS = 40
-"""How often what counts break is ruled out before the longest arcs concerned get an edge."""
+"""How often what the nearest counts break is ruled out, before longest arcs get an edge."""
 
 FAR = 1.5
 """So many times the wanted number, twice, is the least that there is."""
@@ -175,7 +175,7 @@ def _nearest(
     counts, optimal = _unbroken(tmesh, wanted, arcs, collapse, half, cuts)
     least = least_counts(tmesh, collapse=collapse)
     ruled = list(cuts)
-    for _ in range(MOST_ROUNDS):
+    for _ in range(tmesh.n_arcs):  # each time another arc gets an edge
         if counts is not None:
             break
         longest = [cut.arcs[np.argmax(wanted[cut.arcs])] for cut in ruled]

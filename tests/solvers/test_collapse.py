@@ -98,6 +98,20 @@ def test_collapse_makes_coarse_meshes_coarser() -> None:
     assert (coarse.counts == 0).any()
 
 
+@pytest.mark.parametrize("name", LAYOUTS)
+def test_layouts_collapsed_in_haste_are_meshes_too(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Without time for the nearest counts."""
+    t, surface = LAYOUTS[name]
+    monkeypatch.setattr("solvers.quantization.MOST_ROUNDS", 0)
+    for edge_length in (0.3, 2.5, 30.0):
+        found = quantize(t, edge_length, collapse=True)
+        assert not found.optimal
+        assert is_whole(t, found.counts, surface)
+        assert found.n_quads <= 2 * quantize(t, edge_length).n_quads
+
+
 def test_singularities_that_nearly_coincide_stay_apart() -> None:
     """Two rectangles side by side, a thin one between them with a singularity on either side."""
     t = tiling(

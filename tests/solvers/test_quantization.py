@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from solvers.collapse import least_counts
-from solvers.errors import CrossviewError
+from solvers.errors import CrossviewError, SolveError
 from solvers.integer_program import balances
 from solvers.quantization import quantize, quantize_to
 from solvers.tmesh import TMesh
@@ -100,6 +100,21 @@ def test_no_edge_of_quads_has_the_same_ends_twice() -> None:
 def test_the_same_layout_gives_the_same_counts() -> None:
     t = LAYOUTS["dissection"]
     assert (quantize(t, 0.31).counts == quantize(t, 0.31).counts).all()
+
+
+def test_many_short_arcs_opposite_a_long_one_all_get_an_edge() -> None:
+    top = [(i / 10, 1.0, (i + 1) / 10, 2.0) for i in range(30)]
+    t = tiling([(0.0, 0.0, 3.0, 1.0), *top])
+    found = quantize(t, 1.0)
+    assert found.optimal
+    assert found.counts[t.lengths > 2.5].tolist() == [30]
+    assert found.n_quads == 60
+
+
+def test_no_time_is_told_in_one_line() -> None:
+    with pytest.raises(SolveError, match="no numbers of quads") as refusal:
+        quantize(LAYOUTS["dissection"], 0.3, time_limit=0.0)
+    assert "\n" not in str(refusal.value)
 
 
 @pytest.mark.parametrize("edge_length", [0.0, -1.0, np.nan, np.inf, 1e-9])
