@@ -215,7 +215,10 @@ class Search:
         At an inserted vertex the mean over the triangles around it.
         """
         fine, vertices = refinement.surface, refinement.vertices
-        owner, faces = np.nonzero((fine.faces[None] == vertices[:, None, None]).any(axis=2))
+        owner_of = np.full(fine.n_vertices, -1)
+        owner_of[vertices] = np.arange(len(vertices))
+        faces, corner = np.nonzero(owner_of[fine.faces] >= 0)
+        owner = owner_of[fine.faces[faces, corner]]
         points = [SurfacePoint(face, (1 / 3, 1 / 3, 1 / 3)) for face in faces.tolist()]
         frames = np.stack(fine.face_frames, axis=1)[faces]
         in_space = np.einsum("cpd,pdx->cpx", fresh.gradients(points), frames)
