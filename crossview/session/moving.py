@@ -10,6 +10,7 @@ from typing import TypeVar
 from crossview.session.commands import Command, ReplaceSingularities
 from crossview.session.document import Document
 from crossview.session.live import LiveBase, with_directions
+from crossview.session.methods import DRAWN_EVERY
 from solvers.crossfield import CrossField
 from solvers.errors import CrossviewError
 from solvers.natural import ALIGNMENTS, CrossesStep, natural_singularities
@@ -96,9 +97,13 @@ def place_natural(
         document.surface, method, alignment=alignment, features=document.problem.features
     )
 
+    drawn = -DRAWN_EVERY
+
     def show(step: Progress) -> Progress:
-        if not isinstance(step, CrossesStep):
+        nonlocal drawn
+        if not isinstance(step, CrossesStep) or time.monotonic() - drawn < DRAWN_EVERY:
             return step
+        drawn = time.monotonic()
         field = with_directions(step.field)
         return Moving(step.stage, step.fraction, (), None, field)
 
