@@ -33,6 +33,17 @@ def balances(tmesh: TMesh) -> csr_array:
     return matrix[np.flatnonzero(np.diff(matrix.indptr))]
 
 
+def arcs_alone(tmesh: TMesh) -> csr_array:
+    """Return the matrix (A, A) that takes counts to counts.
+
+    Parameters
+    ----------
+    tmesh : TMesh
+        The rectangles.
+    """
+    return csr_array(eye_array(tmesh.n_arcs))
+
+
 def offsets(tmesh: TMesh) -> csr_array:
     """Return the matrix (., A) that takes counts to how far nodes are from facing another.
 

@@ -12,22 +12,20 @@ import time
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.sparse import csr_array, eye_array, vstack
+from scipy.sparse import csr_array, vstack
 
-from solvers.collapse import Cut, broken, least_counts
+from solvers.collapse import Cut
 from solvers.errors import CrossviewError, SolveError
-from solvers.integer_program import balances, nearest_counts, offsets
+from solvers.integer_program import arcs_alone, offsets
 from solvers.tmesh import TMesh
-from solvers.triangulation import FloatArray, IntArray
+from solvers.triangulation import IntArray
+from solvers.unbroken import hasty, unbroken
 
 MOST_QUADS = 5_000_000
 """Finer meshes are not made."""
 
 NEAR_ENOUGH = 0.01
 """Relative distance from a wanted number of quads at which looking further ends."""
-
-MOST_ROUNDS = 40
-"""How often what the nearest counts break is ruled out, before longest arcs get an edge."""
 
 FAR = 1.5
 """So many times the wanted number, twice, is the least that there is."""
@@ -156,11 +154,7 @@ def number_of_quads(tmesh: TMesh, counts: IntArray) -> int:
 def _nearest(
     tmesh: TMesh, edge_length: float, collapse: bool, time_limit: float, cuts: list[Cut]
 ) -> Quantization:
-    """Return counts near to the arcs' lengths alone; conditions found on the way join `cuts`.
-
-    When the nearest take too long, the longest arc of every condition gets an edge, which needs no
-    branching.
-    """
+    """Return counts near to the arcs' lengths alone; conditions found on the way join `cuts`."""
     if not np.isfinite(edge_length) or edge_length <= 0:
         raise CrossviewError(f"the edge length must be a positive number, not {edge_length!r}")
     if tmesh.area / edge_length**2 > MOST_QUADS:
@@ -169,23 +163,10 @@ def _nearest(
             f"at most {MOST_QUADS:.3g}",
             "choose longer edges",
         )
-    arcs = csr_array(eye_array(tmesh.n_arcs))
-    wanted = tmesh.lengths / edge_length
-    half = 0.5 * time_limit
-    counts, optimal = _unbroken(tmesh, wanted, arcs, collapse, half, cuts)
-    least = least_counts(tmesh, collapse=collapse)
-    ruled = list(cuts)
-    for _ in range(tmesh.n_arcs):  # each time another arc gets an edge
-        if counts is not None:
-            break
-        longest = [cut.arcs[np.argmax(wanted[cut.arcs])] for cut in ruled]
-        least[longest] = np.maximum(least[longest], 1)
-        tried, _ = nearest_counts(wanted, arcs, balances(tmesh), least, ruled, half)
-        if tried is None:
-            break
-        found = broken(tmesh, tried)
-        ruled += found
-        counts = None if found else tried
+    wanted, half = tmesh.lengths / edge_length, 0.5 * time_limit
+    counts, optimal = unbroken(tmesh, wanted, arcs_alone(tmesh), collapse, half, cuts)
+    if counts is None:
+        counts = hasty(tmesh, wanted, collapse, half, cuts)
     if counts is None and collapse:
         return _nearest(tmesh, edge_length, False, time_limit, [])
     if counts is None:
@@ -204,45 +185,14 @@ def _straightened(
     across = offsets(tmesh)
     if across.shape[0] == 0:
         return found
-    measured = csr_array(vstack([eye_array(tmesh.n_arcs), across]))
+    measured = csr_array(vstack([arcs_alone(tmesh), across]))
     wanted = tmesh.lengths / found.edge_length
-    counts, optimal = _unbroken(tmesh, wanted, measured, collapse, time_limit, cuts)
+    counts, optimal = unbroken(tmesh, wanted, measured, collapse, time_limit, cuts)
     if counts is not None:
         straight = _quantization(tmesh, counts, found.edge_length, optimal)
         if straight.deviation <= found.deviation:
             return straight
     return replace(found, optimal=False)
-
-
-def _unbroken(
-    tmesh: TMesh,
-    wanted: FloatArray,
-    measured: csr_array,
-    collapse: bool,
-    time_limit: float,
-    cuts: list[Cut],
-) -> tuple[IntArray | None, bool]:
-    """Return the nearest counts that make a mesh, if any in time, and whether they surely are.
-
-    Whatever the nearest counts break becomes a condition, until they break nothing. Those that
-    hold for all lengths join `cuts`.
-    """
-    balance, least = balances(tmesh), least_counts(tmesh, collapse=collapse)
-    end = time.monotonic() + time_limit
-    ruled = list(cuts)
-    for _ in range(MOST_ROUNDS):
-        left = end - time.monotonic()
-        if left <= 0:
-            break
-        counts, optimal = nearest_counts(wanted, measured, balance, least, ruled, left)
-        if counts is None:
-            break
-        found = broken(tmesh, counts)
-        if not found:
-            return counts, optimal
-        ruled += found
-        cuts += [cut for cut in found if cut.least == 1]
-    return None, False
 
 
 def _quantization(
