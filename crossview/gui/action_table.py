@@ -146,10 +146,10 @@ def _methods() -> tuple[ActionSpec, ...]:
 
 
 def _views() -> tuple[ActionSpec, ...]:
-    views = (("+z", "From above"), ("-y", "From the front"), ("+x", "From the right"))
+    views = (("xy", "From above"), ("xz", "From the front"), ("yz", "From the right"))
     return tuple(
         ActionSpec(
-            f"view{direction}",
+            f"view-{direction}",
             text,
             "View",
             lambda w, direction=direction: w.viewport.look_from(direction),  # type: ignore[misc]

@@ -283,3 +283,13 @@ def test_dark_scene(hand: Hand) -> None:
 )
 def test_numbers_have_sensible_digits(text: str, expected: str) -> None:
     assert text == expected
+
+
+def test_looking_from_three_sides(hand: Hand) -> None:
+    hand.open("sphere-cube")
+    for name, away in (("xy", (0, 0, 1)), ("xz", (0, -1, 0)), ("yz", (1, 0, 0))):
+        hand.trigger(f"view-{name}")
+        camera = hand.window.viewport.scene.camera
+        seen = np.subtract(camera.position, camera.focus)
+        np.testing.assert_allclose(seen / np.linalg.norm(seen), away, atol=0.05)
+    assert hand.state.message is None
