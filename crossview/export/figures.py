@@ -138,16 +138,19 @@ def render_view(
     size: tuple[int, int] = (1600, 1200),
     scale: float = 1.0,
     camera: str | Camera = "auto",
+    dpi: float | None = None,
 ) -> Path:
     """Draw a view to a file; parameters as of `render`.
 
-    A `Camera`, as `Scene.camera` gives, is taken as it is.
+    A `Camera`, as `Scene.camera` gives, is taken as it is. With `dpi`, pixels per inch, the file
+    says how large it is on paper.
     """
     target = Path(path)
     _check_kind(target)
     with staged(target.parent) as staging:
         if target.suffix.lower() == ".png":
-            picture(view, size, scale, camera).save(staging / target.name, "PNG")
+            said = {} if dpi is None else {"dpi": (dpi, dpi)}
+            picture(view, size, scale, camera).save(staging / target.name, "PNG", **said)
         else:
-            save_vector(view, staging / target.name, size, scale, camera)
+            save_vector(view, staging / target.name, size, scale, camera, dpi)
     return target

@@ -54,20 +54,26 @@ _SETTINGS = {
 
 
 def save_vector(
-    view: SceneView, path: Path, size: tuple[int, int], scale: float, camera: str | Camera
+    view: SceneView,
+    path: Path,
+    size: tuple[int, int],
+    scale: float,
+    camera: str | Camera,
+    dpi: float | None = None,
 ) -> None:
     """Draw a view to an SVG or PDF file, by its suffix; parameters as of `figures.render_view`."""
     bare = _only_surface(view)
     image = picture(bare, size, scale, camera, texts=False)
     eye = seen(bare, size, camera)
+    per_inch = _DPI if dpi is None else dpi / scale
     with matplotlib.rc_context(_SETTINGS):
-        figure = Figure(figsize=(size[0] / _DPI, size[1] / _DPI), dpi=_DPI * scale)
+        figure = Figure(figsize=(size[0] / per_inch, size[1] / per_inch), dpi=per_inch * scale)
         figure.patch.set_alpha(0.0)
         paper = figure.add_axes((0.0, 0.0, 1.0, 1.0))
         paper.set_axis_off()
         paper.imshow(image, extent=(0, size[0], 0, size[1]), interpolation="none", aspect="auto")
         paper.set(xlim=(0, size[0]), ylim=(0, size[1]))
-        sheet = Sheet(paper, eye, pixel_ratio(size), _DPI)
+        sheet = Sheet(paper, eye, pixel_ratio(size), per_inch)
         if view.points is not None and view.faces is not None:
             triangles = Triangles(view.points, view.faces)
             _draw_quads(sheet, view, triangles)

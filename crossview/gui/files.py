@@ -100,6 +100,7 @@ class Files:
                 size=settings.size,
                 scale=settings.scale,
                 camera=window.viewport.scene.camera,
+                dpi=settings.dpi,
             )
             window.statusBar().showMessage(f"Wrote {path}", SAID_MS)
 

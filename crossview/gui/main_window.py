@@ -18,6 +18,7 @@ from crossview.gui.actions import Actions
 from crossview.gui.arrangement import Arrangement
 from crossview.gui.docks import add_docks
 from crossview.gui.empty_state import EmptyState
+from crossview.gui.figure_preview import FigurePreview
 from crossview.gui.files import Files
 from crossview.gui.menus import Menus, make_toolbar
 from crossview.gui.message_bar import MessageBar
@@ -95,6 +96,7 @@ class MainWindow(QMainWindow):
         self.method_box: MethodBox = MethodBox(self.workspace)
         self.toolbar = make_toolbar(self)
         self.status = Status(self)
+        self.figure_preview = FigurePreview(self)
         self.arrangement: Arrangement = Arrangement(self)
         self.workspace.changed.connect(self._show_state)
         self.workspace.opened.connect(self._opened)
@@ -159,6 +161,7 @@ class MainWindow(QMainWindow):
         """End the background and free what VTK holds."""
         self.arrangement.keep()
         self.workspace.close()
+        self.figure_preview.close()
         self.viewport.close_plotter()
         super().closeEvent(event)
 

@@ -1,16 +1,18 @@
-"""The Export panel: size, scale and transparency of a figure."""
+"""The Export panel: how a figure is drawn, and a preview of it."""
 
 from __future__ import annotations
 
-from PySide6.QtCore import QLocale
-from PySide6.QtGui import QAction
+from PySide6.QtCore import QLocale, QSize, Qt, Signal
+from PySide6.QtGui import QAction, QResizeEvent
 from PySide6.QtWidgets import (
     QCheckBox,
     QFormLayout,
     QHBoxLayout,
     QLabel,
     QPushButton,
+    QSizePolicy,
     QSpinBox,
+    QVBoxLayout,
     QWidget,
 )
 
@@ -18,10 +20,14 @@ from crossview.gui.figure_settings import FigureSettings
 from crossview.gui.panels.texts import grouped
 
 MOST_PIXELS = 16384
+LEAST_PREVIEW = QSize(80, 48)
 
 
 class ExportPanel(QWidget):
-    """Edits `FigureSettings`; its button exports."""
+    """Edits `FigureSettings` and shows what they give; its button exports."""
+
+    changed = Signal()
+    """The settings are others now, or the room for the preview is."""
 
     def __init__(self, export: QAction, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -30,9 +36,16 @@ class ExportPanel(QWidget):
         self.height_box = _pixels(default.size[1])
         self.scale_box = _box(1, 8, default.scale)
         self.scale_box.setSuffix("×")
+        self.dpi_box = _box(36, 2400, default.dpi)
+        self.dpi_box.setSuffix(" dpi")
+        self.dpi_box.setToolTip("Pixels of the file per inch on paper")
         self.transparent_box = QCheckBox("Transparent background")
         self.result = QLabel()
         self.result.setForegroundRole(self.palette().ColorRole.PlaceholderText)
+        self.preview = QLabel()
+        self.preview.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.preview.setMinimumSize(LEAST_PREVIEW)
+        self.preview.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Expanding)
         self.button = QPushButton(export.icon(), "Export figure…")
         self.button.clicked.connect(export.trigger)
         export.enabledChanged.connect(self.button.setEnabled)
@@ -42,28 +55,45 @@ class ExportPanel(QWidget):
         pair.addWidget(self.width_box, 1)
         pair.addWidget(QLabel("×"))
         pair.addWidget(self.height_box, 1)
-        form = QFormLayout(self)
-        form.setContentsMargins(10, 8, 10, 8)
+        fine = QHBoxLayout()
+        fine.setSpacing(4)
+        fine.addWidget(self.scale_box, 2)
+        fine.addWidget(self.dpi_box, 3)
+        form = QFormLayout()
         form.setVerticalSpacing(6)
         form.addRow("Size", pair)
-        form.addRow("Scale", self.scale_box)
+        form.addRow("Scale", fine)
         form.addRow(self.transparent_box)
         form.addRow(self.result)
-        form.addRow(self.button)
-        for box in (self.width_box, self.height_box, self.scale_box):
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(10, 8, 10, 8)
+        layout.setSpacing(6)
+        layout.addLayout(form)
+        layout.addWidget(self.preview, 1)
+        layout.addWidget(self.button)
+        for box in (self.width_box, self.height_box, self.scale_box, self.dpi_box):
             box.valueChanged.connect(self._show_result)
+        self.transparent_box.toggled.connect(self.changed)
         self._show_result()
 
     @property
     def settings(self) -> FigureSettings:
         """What the boxes say."""
         size = (self.width_box.value(), self.height_box.value())
-        return FigureSettings(size, self.scale_box.value(), self.transparent_box.isChecked())
+        transparent = self.transparent_box.isChecked()
+        return FigureSettings(size, self.scale_box.value(), transparent, self.dpi_box.value())
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Tell that there is other room for a preview."""
+        super().resizeEvent(event)
+        self.changed.emit()
 
     def _show_result(self) -> None:
         settings = self.settings
         width, height = (side * settings.scale for side in settings.size)
-        self.result.setText(f"{grouped(width)} × {grouped(height)} pixels")
+        across, up = (f"{side:.0f}" for side in settings.millimetres)
+        self.result.setText(f"{grouped(width)} × {grouped(height)} pixels\n{across} × {up} mm")
+        self.changed.emit()
 
 
 def _pixels(value: int) -> QSpinBox:
