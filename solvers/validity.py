@@ -178,7 +178,9 @@ class _Attempt:
                     Offer("pair", f"Add a pair of 3 and 5 near ({place})", paired.singularities)
                 )
                 break
-        return (*found, Offer("anisotropic", "Solve the anisotropic field"))
+        if why:
+            found.append(Offer("anisotropic", "Solve the anisotropic field"))
+        return tuple(found)
 
     def _tried(
         self, stage: str, start: tuple[Singularity, ...], aims: Sequence[tuple[int, ...]]
@@ -244,6 +246,7 @@ def _refusal(
     remedy = " or ".join(offer.label[:1].lower() + offer.label[1:] for offer in offers)
     if not why:
         what = "a torus with one valence 3 and one valence 5 is never valid, wherever they are"
+        remedy = remedy or "add a pair of singularities"
         return ValidityError(what, "Izmestiev et al. 2013", remedy, worst, offers)
     if why == TOO_FEW:
         remedy = f"unlock some, or {remedy}"

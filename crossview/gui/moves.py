@@ -10,9 +10,11 @@ from crossview.gui.state import Message, MessageAction
 from crossview.gui.store import Store
 from crossview.session.commands import ChooseMethod, Command, ReplaceSingularities
 from crossview.session.moving import move_to_validity, place_natural
-from solvers.errors import CrossviewError
 from solvers.progress import Progress
 from solvers.validity import Offer, ValidityError
+
+LABELS = {"anisotropic": "Solve anisotropic"}
+"""Of buttons, where they are shorter than what is offered in words."""
 
 NAMES = {"turns": "another layout", "pair": "one more pair"}
 """What the steps of offers are called."""
@@ -69,14 +71,10 @@ class Moves:
 
     def _offers(self, error: Exception) -> tuple[MessageAction, ...]:
         """Return what the error itself says may be done."""
-        if isinstance(error, ValidityError):
-            return tuple(
-                MessageAction(offer.label, partial(self._take, offer))
-                for offer in error.offers
-                if offer.kind != self._store.state.method
-            )
-        remedy = error.remedy if isinstance(error, CrossviewError) else ""
-        if "anisotropic" not in remedy or self._store.state.method == "anisotropic":
+        if not isinstance(error, ValidityError):
             return ()
-        solve = partial(self._do, ChooseMethod("anisotropic"))
-        return (MessageAction("Solve anisotropic", solve),)
+        return tuple(
+            MessageAction(LABELS.get(offer.kind, offer.label), partial(self._take, offer))
+            for offer in error.offers
+            if offer.kind != self._store.state.method
+        )

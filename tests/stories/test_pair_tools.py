@@ -127,9 +127,7 @@ def test_the_impossible_torus_is_offered_a_pair_that_works(hand: Hand) -> None:
     assert "never valid" in hand.state.message.text
     assert valences(hand) == [3, 5]
     buttons = hand.window.centre.message_bar.action_buttons
-    labels = [button.text() for button in buttons]
-    assert labels[0].startswith("Add a pair of 3 and 5 near")
-    assert labels[-1] == "Solve the anisotropic field"
+    assert [button.text()[:26] for button in buttons] == ["Add a pair of 3 and 5 near"]
     buttons[0].click()
     hand.wait(lambda: hand.state.solved and hand.state.field is not None)
     assert valences(hand) == [3, 5, 3, 5]
@@ -151,7 +149,7 @@ def test_locked_singularities_are_offered_a_pair_or_the_anisotropic_field(
     assert "around the inner boundary, 15" in hand.state.message.text
     buttons = hand.window.centre.message_bar.action_buttons
     before = places(hand)
-    assert [button.text()[:10] for button in buttons] == ["Add a pair", "Solve the "]
+    assert [button.text()[:10] for button in buttons] == ["Add a pair", "Solve anis"]
     buttons[0].click()
     hand.wait(lambda: hand.state.solved)
     assert hand.state.valid
