@@ -32,9 +32,8 @@ MOST_QUADS = 2_000_000
 SOON = 50_000
 """Triangles up to which a layout takes seconds at most."""
 
-REMEDY = (
-    "make the configuration valid (make-valid) or solve the anisotropic field (method anisotropic)"
-)
+ANISOTROPIC = "solve the anisotropic field (method anisotropic)"
+REMEDY = f"make the configuration valid (make-valid) or {ANISOTROPIC}"
 
 
 @dataclass(frozen=True)
@@ -232,19 +231,19 @@ def _require_possible(solution: Solution) -> None:
     loops, _ = misaligned_boundaries(solution)
     if len(loops):
         misses = "a boundary" if len(loops) == 1 else f"{len(loops)} boundaries"
-        raise _misses(misses, solution.field.boundary_misalignment)
+        raise _misses(misses, solution.field.boundary_misalignment, REMEDY)
     if solution.verdict.status == "impossible":
         raise LayoutError(f"no quads: {solution.verdict.reason.rstrip('.')}")
     off = np.abs(np.degrees(solution.field.feature_misalignment))
     missed = np.count_nonzero(off > solution.problem.options.tolerance_degrees)
     if missed:
         misses = "a feature curve" if missed == 1 else f"{missed} feature curves"
-        raise _misses(misses, solution.field.feature_misalignment)
+        raise _misses(misses, solution.field.feature_misalignment, ANISOTROPIC)
 
 
-def _misses(what: str, angles: FloatArray) -> LayoutError:
+def _misses(what: str, angles: FloatArray, remedy: str) -> LayoutError:
     worst = np.degrees(np.abs(angles).max())
-    return LayoutError(f"the field misses {what}, by up to {worst:.3g} degrees", "", REMEDY)
+    return LayoutError(f"the field misses {what}, by up to {worst:.3g} degrees", "", remedy)
 
 
 def _integrated(solution: Solution) -> IntegratedField:
