@@ -18,6 +18,7 @@ from matplotlib.figure import Figure
 
 from crossview.export.raster import Seen, picture, pixel_ratio, seen
 from crossview.export.sheet import Sheet
+from crossview.export.vector_meshes import draw_marks, draw_quads, draw_separatrices
 from crossview.scene import LAYERS, Camera, SceneView, axes, legend
 from crossview.scene.colors import (
     CROSS,
@@ -25,9 +26,7 @@ from crossview.scene.colors import (
     CUT_HALO,
     FEATURE,
     LOOP,
-    MARK_PAPER,
     PROBLEM,
-    QUAD_EDGE,
     THEMES,
     color_table,
     valence_color,
@@ -35,11 +34,7 @@ from crossview.scene.colors import (
 from crossview.scene.crosses import CrossGlyphs
 from crossview.scene.curves import CUT_DASH, CUT_GAP
 from crossview.scene.geometry import Triangles, dashes
-from crossview.scene.marks import INKS, MARK_SIZE, RIM, STROKES, marks_of
-from crossview.scene.quad_geometry import QuadGeometry
-from crossview.scene.quads import irregular_radius
 from crossview.scene.scalars import SCALARS, bar_texts, shown_scalar
-from crossview.scene.separatrices import curve_height, separatrix_color
 from crossview.scene.singularities import DISC_PAINTS, DISC_PARTS, marker_radius
 from crossview.scene.style import TOWARDS, WIDTH
 
@@ -76,11 +71,11 @@ def save_vector(
         sheet = Sheet(paper, eye, pixel_ratio(size), per_inch)
         if view.points is not None and view.faces is not None:
             triangles = Triangles(view.points, view.faces)
-            _draw_quads(sheet, view, triangles)
+            draw_quads(sheet, view, triangles)
             _draw_crosses(sheet, view, triangles)
-            _draw_separatrices(sheet, view)
+            draw_separatrices(sheet, view)
             _draw_curves(sheet, view, triangles)
-            _draw_marks(sheet, view)
+            draw_marks(sheet, view)
             _draw_singularities(sheet, view, triangles)
             _draw_axes(sheet, view, eye)
         _write_legend(sheet, view, size[1] / pixel_ratio(size))
@@ -116,45 +111,6 @@ def _draw_crosses(sheet: Sheet, view: SceneView, triangles: Triangles) -> None:
         )
         segments = ends.reshape(-1, 2, 3)
         sheet.lines(segments, CROSS, WIDTH["crosses"], TOWARDS["crosses"], settings.opacity)
-
-
-def _draw_quads(sheet: Sheet, view: SceneView, triangles: Triangles) -> None:
-    cover = view.cover
-    mesh = {"quads": view.quads, "layout": view.layout}.get(cover)
-    if mesh is None:
-        return
-    settings, geometry = view.layer(cover), QuadGeometry(mesh)
-    ink = QUAD_EDGE if cover == "quads" else THEMES[view.background].ink
-    edges = geometry.edges if cover == "quads" else geometry.borders
-    if settings.edges:
-        width, towards = WIDTH[cover] * settings.size, TOWARDS["layout borders"]
-        sheet.lines(mesh.points[edges], ink, width, towards, round_ends=True)
-    if cover == "quads" and len(mesh.irregular):
-        colors = [(*DISC_PAINTS, valence_color(int(n))) for n in mesh.valences]
-        radius = irregular_radius(view, triangles)
-        sheet.discs(mesh.irregular, radius, TOWARDS["irregular"], colors, DISC_PARTS)
-
-
-def _draw_separatrices(sheet: Sheet, view: SceneView) -> None:
-    settings, curves = view.layer("separatrices"), view.separatrices
-    if not settings.visible or curves is None:
-        return
-    segments, valences = curves.points[curves.segments], curves.segment_valences
-    width, towards = WIDTH["separatrices halo"] * settings.size, curve_height(view, "separatrices")
-    sheet.lines(segments, CUT_HALO, width, towards, settings.opacity, round_ends=True)
-    for valence in np.unique(valences):
-        color, width = separatrix_color(int(valence)), WIDTH["separatrices"] * settings.size
-        chosen = segments[valences == valence]
-        sheet.lines(chosen, color, width, towards, settings.opacity, round_ends=True)
-
-
-def _draw_marks(sheet: Sheet, view: SceneView) -> None:
-    settings = view.layer("marks")
-    for letter, places in marks_of(view).items():
-        if settings.visible and places is not None and len(places):
-            diameter, towards = MARK_SIZE * settings.size, TOWARDS[f"{letter} marks"]
-            paints = (INKS[letter], MARK_PAPER)
-            sheet.signs(places, diameter, towards, STROKES[letter], paints, RIM)
 
 
 def _draw_curves(sheet: Sheet, view: SceneView, triangles: Triangles) -> None:
