@@ -20,7 +20,7 @@ from solvers.triangulation import FloatArray, IntArray, next_halfedge, wrap
 NEAR = 0.02
 """Nodes this much off a line, of its length, are put on it, if the mesh does not resolve that."""
 
-ACCIDENT = 0.1
+ACCIDENT = 0.2
 """And if so near a passing by accident is less likely than this."""
 
 ALIKE = np.radians(1.0)

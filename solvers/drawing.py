@@ -32,7 +32,7 @@ LONGEST, SHORTEST = 4.0, 0.06
 """Length at which a trace counts as a limit cycle, in diameters of the map, and the least to which
 it is reduced where the layout would become too fine."""
 
-CROSSINGS = 4
+CROSSINGS = 2
 """Crossings for each trace, beside a hundred for all, that make a layout too fine."""
 
 

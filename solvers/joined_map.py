@@ -119,6 +119,6 @@ class JoinedMap:
         raise LayoutError(
             f"{which} turned over in the seamless map",
             where,
-            "move these singularities apart or refine more around them",
+            "move these singularities apart, refine more around them, or take a finer mesh",
             faces=over,
         )
