@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import csc_array, vstack
+from scipy.sparse import csc_array
 
 from solvers.aligned import IntegratedField
 from solvers.arrangement import LayoutError
@@ -43,7 +43,6 @@ class JoinedMap:
         self.integrated = integrated
         self._integrability = integrated.aligned.integrability
         self._fit = SeamlessFit(self._integrability, integrated.x)
-        self._rows: csc_array | None = None
         self.turned = 0.0
         self.chart = self._chart()
 
@@ -86,14 +85,12 @@ class JoinedMap:
         """Fit the map again so that also combinations of images vanish: of the first as many rows
         as do not spoil it. Return whether it was.
         """
-        before, kept = self._fit, 0 if self._rows is None else self._rows.shape[0]
-        rows = csc_array(rows[:MOST])
-        every = before.joining(rows if self._rows is None else vstack([self._rows, rows]).tocsc())
-        count, most = rows.shape[0], max(SPOILT, 2 * before.map.distance)
+        before, rows = self._fit, csc_array(rows[:MOST])
+        kept, count = before.joins.rows.shape[0], rows.shape[0]
+        every, most = before.joining(rows), max(SPOILT, 2 * before.map.distance)
         while count:
-            some = every.first(kept + count)
-            if (fit := before.joined(some, most)) is not None:
-                self._rows, self._fit = some.rows, fit
+            if (fit := before.joined(every.first(kept + count), most)) is not None:
+                self._fit = fit
                 self.chart = self._chart()
                 return True
             count //= 2

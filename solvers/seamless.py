@@ -13,7 +13,7 @@ from copy import copy
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_array, csc_array, diags_array
+from scipy.sparse import coo_array, csc_array, diags_array, vstack
 
 from solvers.factorization import Analysis, Factorization
 from solvers.integrability import Integrability
@@ -88,6 +88,8 @@ class SeamlessFit:
     ----------
     map : SeamlessMap
         The one with the fewest triangles turned over.
+    joins : Joining
+        The further conditions it satisfies.
     """
 
     def __init__(self, integrability: Integrability, x: FloatArray) -> None:
@@ -97,8 +99,8 @@ class SeamlessFit:
         self._upright = _wanted_by_means(integrability, x)
         self._stiffer = np.zeros(t.n_faces, dtype=bool)
         self._fit = _Fit(_Conditions(integrability), self._wanted, self._weight)
-        none = csc_array((0, 6 * t.n_faces))
-        self.map = self._mended(self._fit.joined(self._fit.joining(none)), none)
+        self.joins = self._fit.joining(csc_array((0, 6 * t.n_faces)))
+        self.map = self._mended(self._fit.joined(self.joins))
 
     @property
     def mended(self) -> int:
@@ -112,8 +114,13 @@ class SeamlessFit:
         ----------
         rows : (k, 6 m) sparse array
             Coefficients of the images' components.
+
+        Returns
+        -------
+        Joining
+            Those that do already come first.
         """
-        return self._fit.joining(rows)
+        return self.joins.followed_by(self._fit.joining(rows))
 
     def joined(self, joining: Joining, most: float) -> SeamlessFit | None:
         """Return the nearest map on which more linear combinations of images vanish.
@@ -138,10 +145,11 @@ class SeamlessFit:
         other = copy(self)
         other._wanted, other._weight = self._wanted.copy(), self._weight.copy()
         other._stiffer = self._stiffer.copy()
-        other.map = other._mended(found, joining.rows)
+        other.joins = joining
+        other.map = other._mended(found)
         return other if len(other.map.flipped) <= len(self.map.flipped) else None
 
-    def _mended(self, found: SeamlessMap, rows: csc_array) -> SeamlessMap:
+    def _mended(self, found: SeamlessMap) -> SeamlessMap:
         """Return the map with the fewest triangles turned over, making those stiffer."""
         best, in_vain = found, 0
         for _ in range(ROUNDS):
@@ -154,7 +162,8 @@ class SeamlessFit:
             self._wanted[h] = self._upright[h]
             self._weight[h] *= STIFFER
             self._fit = _Fit(self._fit.conditions, self._wanted, self._weight)
-            found = self._fit.joined(self._fit.joining(rows))
+            self.joins = self._fit.joining(self.joins.rows)
+            found = self._fit.joined(self.joins)
             in_vain += 1
             if len(found.flipped) < len(best.flipped):
                 best, in_vain = found, 0
@@ -176,6 +185,14 @@ class Joining:
     rows: csc_array
     wanted: FloatArray
     moves: FloatArray
+
+    def followed_by(self, other: Joining) -> Joining:
+        """Return these and others."""
+        return Joining(
+            csc_array(vstack([self.rows, other.rows])),
+            np.concatenate([self.wanted, other.wanted]),
+            np.concatenate([self.moves, other.moves]),
+        )
 
     def first(self, count: int) -> Joining:
         """Return the first ones."""
