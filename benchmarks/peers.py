@@ -29,7 +29,7 @@ from crossview.problem import Problem
 from solvers.placing import far_points
 from solvers.primitives import BUILTIN
 from solvers.progress import run
-from solvers.quadmesh import scaled_jacobian
+from solvers.quads.quadmesh import scaled_jacobian
 from solvers.singularities import Singularity
 from solvers.surface import TriSurface
 

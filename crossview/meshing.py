@@ -11,17 +11,17 @@ import numpy as np
 
 from crossview.solution import Solution
 from solvers.aligned import IntegratedField, aligned_field
-from solvers.arrangement import LayoutError
 from solvers.crossfield import CrossField
 from solvers.errors import CrossviewError
-from solvers.filling import fill
 from solvers.isotropic import IsotropicSolver
-from solvers.layout import QuadLayout, quad_layout
+from solvers.layouts.errors import LayoutError
+from solvers.layouts.layout import QuadLayout, quad_layout
+from solvers.layouts.separatrices import Separatrices, field_separatrices
 from solvers.progress import Progress, relayed, run
-from solvers.quad_smoothing import smooth
-from solvers.quadmesh import QuadMesh
-from solvers.quantization import quantize, quantize_to
-from solvers.separatrices import Separatrices, field_separatrices
+from solvers.quads.filling import fill
+from solvers.quads.quadmesh import QuadMesh
+from solvers.quads.quantization import quantize, quantize_to
+from solvers.quads.smoothing import smooth
 from solvers.surface import TriSurface
 from solvers.triangulation import FloatArray, IntArray
 

@@ -14,13 +14,13 @@ from solvers.aligned import AlignedField, IntegratedField, aligned_field
 from solvers.crossfield import CrossField
 from solvers.features import Features
 from solvers.isotropic import IsotropicSolver
-from solvers.layout import QuadLayout
+from solvers.layouts.layout import QuadLayout
+from solvers.layouts.separatrices import Separatrices
+from solvers.layouts.turning import joining_turn
 from solvers.refinement import Refinement
-from solvers.separatrices import Separatrices
 from solvers.singularities import Singularity
 from solvers.surface import TriSurface
 from solvers.triangulation import FloatArray, IntArray
-from solvers.turning import joining_turn
 from solvers.verdict import Verdict
 
 

@@ -17,10 +17,10 @@ from crossview.cli.terminal import say, watch
 from crossview.meshing import MeshOptions, layout, quads_of
 from crossview.pipeline import Solution, solve_case
 from crossview.staging import staged
-from solvers.arrangement import LayoutError
 from solvers.errors import CrossviewError
+from solvers.layouts.errors import LayoutError
 from solvers.progress import Progress
-from solvers.quadmesh import QuadMesh
+from solvers.quads.quadmesh import QuadMesh
 
 FIGURE, QUADS = "figure.png", "quads.png"
 QUAD_LAYERS = ("quads", "singularities", "boundary", "legend", "axes")

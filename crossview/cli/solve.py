@@ -13,7 +13,7 @@ from crossview.pipeline import Solution, solve_case
 from crossview.staging import staged
 from solvers.errors import CrossviewError
 from solvers.progress import Progress
-from solvers.quadmesh import QuadMesh
+from solvers.quads.quadmesh import QuadMesh
 
 Results = list[tuple[Solution, QuadMesh | None]]
 

@@ -25,7 +25,7 @@ from crossview.scene.field import feature_lines
 from crossview.scene.meshes import curves_of, patches_of, quads_of, t_junctions_of
 from crossview.scene.view import Background
 from crossview.staging import staged
-from solvers.quadmesh import QuadMesh
+from solvers.quads.quadmesh import QuadMesh
 
 KINDS = (".png", ".svg", ".pdf")
 

@@ -18,7 +18,7 @@ from vtkmodules.vtkIOLegacy import vtkUnstructuredGridWriter
 from crossview import __version__
 from crossview.staging import staged
 from solvers.errors import CrossviewError
-from solvers.quadmesh import QuadMesh
+from solvers.quads.quadmesh import QuadMesh
 from solvers.triangulation import FloatArray, IntArray
 
 OLDER = 42

@@ -23,7 +23,7 @@ from crossview.export.vtp import (
 from crossview.meshing import misaligned_boundaries, separatrices
 from crossview.pipeline import Solution
 from crossview.staging import staged
-from solvers.quadmesh import QuadMesh
+from solvers.quads.quadmesh import QuadMesh
 
 REPORT = "report.json"
 FORMATS = ("vtk", "obj")

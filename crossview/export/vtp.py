@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from crossview.meshing import separatrices, turned_field
 from crossview.pipeline import Solution
-from solvers.layout import QuadLayout
+from solvers.layouts.layout import QuadLayout
 
 ARM = 0.35
 """Length of a cross's arm in a triangle of typical H, in lengths of the triangle's size."""

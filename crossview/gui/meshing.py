@@ -12,8 +12,8 @@ from crossview.meshing import MeshOptions
 from crossview.scene import Elements
 from crossview.session.commands import ChooseMethod, Command
 from crossview.session.meshes import Meshes, lay_out, make_quads, trace
-from solvers.arrangement import LayoutError
 from solvers.crossfield import CrossField
+from solvers.layouts.errors import LayoutError
 
 KEPT = 4
 """Fields whose meshes are kept: one for each method."""

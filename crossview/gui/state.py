@@ -19,9 +19,9 @@ from crossview.session.methods import Iterate
 from crossview.session.moving import Moving
 from solvers.crossfield import CrossField
 from solvers.features import Features
+from solvers.layouts.separatrices import Separatrices
 from solvers.points import SurfacePoint
 from solvers.progress import Progress
-from solvers.separatrices import Separatrices
 from solvers.singularities import IndexBudget, Singularity, index_budget
 from solvers.surface import TriSurface
 from solvers.triangulation import FloatArray, IntArray

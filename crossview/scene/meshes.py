@@ -13,9 +13,9 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from crossview.scene.values import Curves, FloatArray, Quads
-from solvers.layout import QuadLayout
-from solvers.quadmesh import QuadMesh
-from solvers.separatrices import Separatrices
+from solvers.layouts.layout import QuadLayout
+from solvers.layouts.separatrices import Separatrices
+from solvers.quads.quadmesh import QuadMesh
 
 Source = TypeVar("Source")
 Drawing = TypeVar("Drawing")

@@ -9,12 +9,12 @@ import numpy as np
 
 from crossview.meshing import MeshOptions, layout, mesh, misaligned_boundaries, separatrices
 from crossview.pipeline import Solution
-from solvers.arrangement import LayoutError
 from solvers.crossfield import CrossField
-from solvers.layout import QuadLayout
+from solvers.layouts.errors import LayoutError
+from solvers.layouts.layout import QuadLayout
+from solvers.layouts.separatrices import Separatrices
 from solvers.progress import Progress, relayed
-from solvers.quadmesh import QuadMesh
-from solvers.separatrices import Separatrices
+from solvers.quads.quadmesh import QuadMesh
 from solvers.triangulation import FloatArray
 
 LAID_OUT = 0.6

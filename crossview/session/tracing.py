@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 from crossview.session.live import LiveEdit
 from solvers.crossfield import CrossField
+from solvers.layouts.separatrices import Separatrices, field_separatrices
 from solvers.progress import Progress
-from solvers.separatrices import Separatrices, field_separatrices
 
 LONGEST = 1.5
 """Length at which a curve is given up, in square roots of the surface's area."""

@@ -15,9 +15,9 @@ from crossview.export.report import report
 from crossview.gallery import find_case
 from crossview.meshing import MeshOptions, layout, quads_of
 from crossview.pipeline import Solution, solve_case
-from solvers.arrangement import LayoutError
+from solvers.layouts.errors import LayoutError
 from solvers.progress import run
-from solvers.quadmesh import QuadMesh
+from solvers.quads.quadmesh import QuadMesh
 
 NOT_ISOTROPIC = {
     "annulus-far",

@@ -12,8 +12,8 @@ import pyvista as pv
 from crossview.export.meshes import WRITERS, boundary_edges, write_mesh
 from crossview.io import read_surface
 from solvers.errors import CrossviewError
-from solvers.quadmesh import QuadMesh
-from tests.solvers.quad_grids import GRIDS
+from solvers.quads.quadmesh import QuadMesh
+from tests.solvers.quads.quad_grids import GRIDS
 
 
 @pytest.fixture(params=["annulus", "sphere", "square"])

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 from crossview.gui.panels.texts import MINUS, count, grouped
 from crossview.pipeline import Solution
-from solvers.layout import QuadLayout
-from solvers.quadmesh import QuadMesh
+from solvers.layouts.layout import QuadLayout
+from solvers.quads.quadmesh import QuadMesh
 
 ROWS = (
     "Vertices",

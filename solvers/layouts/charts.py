@@ -1,0 +1,84 @@
+"""Plane images of triangles in which their crosses are the axes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from solvers.crossfield import CrossField
+from solvers.triangulation import IntArray, IntrinsicTriangulation, previous_halfedge
+
+ComplexArray = npt.NDArray[np.complex128]
+
+QUARTER = np.pi / 2
+AXES = np.array([1, 1j, -1, -1j])
+
+
+@dataclass(frozen=True, eq=False)
+class Chart:
+    """Plane images of the triangles, and the quarter turns between them.
+
+    Parameters
+    ----------
+    triangulation : IntrinsicTriangulation
+        The triangles.
+    images : (m, 3) complex array
+        Image of each halfedge in its triangle's frame.
+    quarter_turns : (3 m,) int array
+        What a direction in the frame of a halfedge's triangle is turned by to become one in the
+        frame of its twin's.
+    """
+
+    triangulation: IntrinsicTriangulation
+    images: ComplexArray
+    quarter_turns: IntArray
+
+    @classmethod
+    def of_field(cls, field: CrossField) -> Chart:
+        """Return each triangle by itself, turned and scaled by its own cross and sizes."""
+        t = field.surface.triangulation
+        own = np.exp(1j * (t.directions.reshape(-1, 3) - field.theta[:, None])) * t.lengths
+        along, across = (-h.mean(axis=1)[:, None] for h in (field.H1, field.H2))
+        images = np.exp(along) * own.real + 1j * np.exp(across) * own.imag
+        face = np.repeat(np.arange(t.n_faces), 3)
+        turn = field.theta[face] + t.transport - field.theta[t.twin // 3]
+        turns = np.where(t.twin >= 0, np.rint(turn / QUARTER), 0).astype(np.int64)
+        return cls(t, images, turns)
+
+    @cached_property
+    def corners(self) -> ComplexArray:
+        """(m, 3) images of the corners, the first at the origin."""
+        z = self.images
+        return np.stack([np.zeros(len(z)), z[:, 0], -z[:, 2]], axis=1)
+
+    @cached_property
+    def area(self) -> float:
+        """Area of all images."""
+        z = self.images
+        return float(0.5 * np.abs((z[:, 0].conj() * -z[:, 2]).imag).sum())
+
+    @cached_property
+    def edge_length(self) -> float:
+        """Length of a typical edge: of equilateral triangles of the same number and area."""
+        return float(np.sqrt(4 / np.sqrt(3) * self.area / len(self.images)))
+
+    def ring(self, vertex: int) -> IntArray:
+        """Return the halfedges that leave a vertex, counter-clockwise from the boundary."""
+        twin = self.triangulation.twin
+        first = int(self._first_halfedge[vertex])
+        ring, h = [first], int(twin[previous_halfedge(np.array(first))])
+        while h not in (-1, first):
+            ring.append(h)
+            h = int(twin[previous_halfedge(np.array(h))])
+        return np.array(ring)
+
+    @cached_property
+    def _first_halfedge(self) -> IntArray:
+        t = self.triangulation
+        first = np.empty(t.n_vertices, dtype=np.int64)
+        first[t.tail] = np.arange(3 * t.n_faces)
+        first[t.tail[t.boundary_halfedges]] = t.boundary_halfedges
+        return first

@@ -1,0 +1,166 @@
+"""Separatrices that nearly meet a singularity, and the map in which they do.
+
+A trace that passes a node closer than the mesh resolves is taken to mean it: that its node and the
+one it passes lie on one line of the map becomes a condition on the map. Where the field may be
+turned as a whole, it is turned to where most neighbours lie on common lines.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.sparse import coo_array, csc_array
+
+from solvers.layouts.charts import AXES, QUARTER, ComplexArray
+from solvers.layouts.crossings import Crossings
+from solvers.layouts.tracing import Traces
+from solvers.triangulation import FloatArray, IntArray, wrap
+
+NEAR = 0.02
+"""Nodes this much off a line, of its length, are put on it, if the mesh does not resolve that."""
+
+ACCIDENT = 0.2
+"""And if so near a passing by accident is less likely than this."""
+
+ALIKE = np.radians(1.0)
+"""Spread of the directions between nodes that count as one when a turn is chosen."""
+
+
+def passing(traces: Traces, crossings: Crossings, n_nodes: int) -> IntArray:
+    """Return the first node that each trace passes too closely.
+
+    Parameters
+    ----------
+    traces, crossings
+        The traces, those of `with_rims` too, and where they cross.
+    n_nodes : int
+        Number of nodes they leave.
+
+    Returns
+    -------
+    (p, 2) int array
+        Where a trace meets one that leaves the node at right angles: the chords of both. The
+        least accidental come first.
+    """
+    both = [crossings, Crossings(*(values[:, ::-1] for values in vars(crossings).values()))]
+    chord = np.concatenate([c.chord for c in both])
+    trace = np.concatenate([c.trace for c in both])
+    at = np.concatenate([c.at for c in both])
+    chart = traces.chart
+    # In the strip around a trace there are this many nodes by accident.
+    accident = 2 * at[:, 0] * at[:, 1] * n_nodes / chart.area
+    close = (at[:, 1] < np.minimum(NEAR * at[:, 0], chart.edge_length)) & (accident < ACCIDENT)
+    close &= trace[:, 0] < len(traces.ends)
+    order = np.flatnonzero(close)[np.lexsort((at[close, 0], trace[close, 0]))]
+    first = order[np.unique(trace[order, 0], return_index=True)[1]]
+    return chord[first[np.argsort(accident[first], kind="stable")]]
+
+
+def conditions(traces: Traces, passed: IntArray, turn: float) -> csc_array:
+    """Return the rows (p, 6 m) that take the passed nodes onto the traces.
+
+    Parameters
+    ----------
+    traces : Traces
+        In the map of images turned by `-turn`.
+    passed : (p, 2) int array
+        What passes what, as `passing` returns it.
+    turn : float
+        See `traces`, radians.
+
+    Returns
+    -------
+    sparse array
+        Coefficients of the components of images: the offsets of the nodes from the traces.
+    """
+    chords = traces.chords
+    rows, columns, values = [], [], []
+    for number, (a, b) in enumerate(passed):
+        over = _corner_steps(traces, a)
+        back = _corner_steps(traces, b)
+        turned = AXES[chords.axis[b]] / AXES[chords.axis[a]]
+        between = _steps(_reference(traces, a), _reference(traces, b))
+        here = 3 * chords.face[a]
+        halfedge = np.concatenate([over[0], here + between[0], back[0]])
+        factor = np.concatenate(
+            [over[1], between[1] / AXES[chords.axis[a]], -turned * back[1]]
+        ) * np.exp(-1j * turn)
+        # Across the trace: the imaginary part of factor times image.
+        rows.append(np.full(2 * len(halfedge), number))
+        columns.append(np.stack([2 * halfedge, 2 * halfedge + 1], axis=1).reshape(-1))
+        values.append(np.stack([factor.imag, factor.real], axis=1).reshape(-1))
+    shape = (len(passed), 6 * traces.chart.triangulation.n_faces)
+    if not rows:
+        return csc_array(shape)
+    indices = (np.concatenate(rows), np.concatenate(columns))
+    return csc_array(coo_array((np.concatenate(values), indices), shape=shape))
+
+
+def _corner_steps(traces: Traces, last: int) -> tuple[IntArray, ComplexArray]:
+    """Return halfedges and factors that sum to the way from a node to a chord's triangle.
+
+    To the corner left of where the trace enters it, in the frame along the trace.
+    """
+    first = int(traces.offsets[traces.chords.trace[last]])
+    chords = traces.chords[np.arange(first, last)]
+    start, end = chords.side_in, (chords.side_out + ~chords.corner_out) % 3
+    forward, backward = end == (start + 1) % 3, start == (end + 1) % 3
+    along = AXES[chords.axis].conj()
+    halfedge = np.concatenate(
+        [(3 * chords.face + start)[forward], (3 * chords.face + end)[backward]]
+    )
+    factor = np.concatenate([along[forward], -along[backward]])
+    return halfedge, factor
+
+
+def _reference(traces: Traces, chord: int) -> int:
+    """Return the corner of a chord's triangle left of where the trace enters it, or starts."""
+    return int(traces.chords.side_in[chord])
+
+
+def _steps(start: int, end: int) -> tuple[IntArray, ComplexArray]:
+    """Return sides of a triangle and signs that sum to the way from one corner to another."""
+    if start == end:
+        return np.zeros(0, dtype=np.int64), np.zeros(0, dtype=complex)
+    if end == (start + 1) % 3:
+        return np.array([start]), np.array([1.0 + 0j])
+    return np.array([end]), np.array([-1.0 + 0j])
+
+
+def best_turn(traces: Traces, crossings: Crossings, most: float) -> float:
+    """Return the angle to turn all crosses by so that most neighbouring nodes lie on lines.
+
+    Every crossing of traces from two nodes tells the direction from one to the other in the map;
+    directions that agree vote together, near nodes more.
+
+    Parameters
+    ----------
+    traces, crossings
+        The traces and where they cross.
+    most : float
+        Largest angle, radians.
+
+    Returns
+    -------
+    float
+        Radians.
+    """
+    chords = traces.chords
+    a, b = crossings.chord.T
+    to_right = (chords.axis[b] - chords.axis[a]) % 4 == 3
+    way = crossings.at[:, 0] + 1j * np.where(to_right, 1, -1) * crossings.at[:, 1]
+    angle = wrap(np.angle(way), QUARTER)
+    # Nearer than some triangles it is the mesh that speaks.
+    counts = (np.abs(way) > 4 * traces.chart.edge_length) & (np.abs(angle) <= most)
+    weight = counts / np.maximum(np.abs(way), 1e-300) ** 2
+    if not counts.any():
+        return 0.0
+    heaviest = np.argsort(-weight, kind="stable")[:2000]
+    angle, weight = angle[heaviest], weight[heaviest]
+
+    def apart(one: FloatArray) -> FloatArray:
+        return wrap(angle - one, QUARTER)
+
+    votes = [weight @ np.exp(-0.5 * (apart(one) / ALIKE) ** 2) for one in angle]
+    best = angle[int(np.argmax(votes))]
+    kernel = weight * np.exp(-0.5 * (apart(best) / ALIKE) ** 2)
+    return float(wrap(best + kernel @ apart(best) / kernel.sum(), QUARTER))

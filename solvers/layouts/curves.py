@@ -1,0 +1,85 @@
+"""Traces and boundary loops alike: what the arcs of a layout are parts of."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from solvers.layouts.charts import QUARTER, Chart
+from solvers.layouts.nodes import Node
+from solvers.layouts.stops import Stops
+from solvers.layouts.tracing import BORDER, Chords, Traces
+from solvers.surface import TriSurface
+from solvers.triangulation import FloatArray, IntArray, next_halfedge
+
+
+@dataclass(frozen=True, eq=False)
+class Curves:
+    """Traces and boundary loops alike, as chords.
+
+    Parameters
+    ----------
+    chart : Chart
+        The images.
+    chords : Chords
+        Curve by curve.
+    offsets : (c + 1,) int array
+        The chords of curve i are ``offsets[i]`` to ``offsets[i + 1]``.
+    """
+
+    chart: Chart
+    chords: Chords
+    offsets: IntArray
+
+    def chords_at(self, curve: int, at: FloatArray) -> tuple[IntArray, FloatArray]:
+        """Return the chords at lengths along a curve, and how far along them, 0 to 1."""
+        low, high = self.offsets[curve], self.offsets[curve + 1]
+        start, end = self.chords.start[low:high], self.chords.end[low:high]
+        at = np.where(at > end[-1], at - end[-1], at)  # arcs of loops may run over their seam
+        chord = np.clip(np.searchsorted(start, at, side="right") - 1, 0, high - low - 1)
+        length = np.maximum(end[chord] - start[chord], 1e-300)
+        return low + chord, np.clip((at - start[chord]) / length, 0.0, 1.0)
+
+
+def with_loops(traces: Traces, loops: Sequence[IntArray]) -> Curves:
+    """Return the traces followed by boundary loops, given as halfedges in order."""
+    chart, chords = traces.chart, [traces.chords]
+    offsets = list(traces.offsets)
+    for number, loop in enumerate(loops, start=len(traces.ends)):
+        z = chart.images.reshape(-1)[loop]
+        length = np.concatenate([[0.0], np.cumsum(np.abs(z))])
+        zero, corner = np.zeros(len(loop)), np.ones(len(loop), dtype=bool)
+        axis = np.rint(np.angle(z) / QUARTER).astype(np.int64) % 4
+        curve = np.full(len(loop), number)
+        sides = loop % 3, next_halfedge(loop) % 3
+        ends = length[:-1], length[1:]
+        chords.append(
+            Chords(curve, loop // 3, axis, sides[0], zero, corner, sides[1], zero, corner, *ends)
+        )
+        offsets.append(offsets[-1] + len(loop))
+    columns = zip(*(vars(c).values() for c in chords), strict=True)
+    return Curves(chart, Chords(*(np.concatenate(c) for c in columns)), np.array(offsets))
+
+
+def boundary_halfedges(surface: TriSurface) -> tuple[IntArray, ...]:
+    """Return the halfedges of each boundary loop, in the order of `TriSurface.boundary_loops`."""
+    t = surface.triangulation
+    from_vertex = np.full(surface.n_vertices, -1, dtype=np.int64)
+    from_vertex[t.tail[t.boundary_halfedges]] = t.boundary_halfedges
+    return tuple(from_vertex[loop] for loop in surface.boundary_loops)
+
+
+def bare_loops(
+    loops: Sequence[IntArray], nodes: Sequence[Node], traces: Traces, stopped: Stops
+) -> IntArray:
+    """Return the numbers of the loops that no trace reaches or leaves."""
+    t = traces.chart.triangulation
+    last = traces.chords[traces.offsets[1:] - 1]
+    hit = (3 * last.face + last.side_out)[stopped.kept & (traces.ends == BORDER)]
+    touched = {int(n.vertex) for n in nodes if not n.inner} | set(t.tail[hit].tolist())
+    return np.array(
+        [i for i, loop in enumerate(loops) if touched.isdisjoint(t.tail[loop].tolist())],
+        dtype=np.int64,
+    )

@@ -1,0 +1,128 @@
+"""The traces that are to become the arcs of a layout."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+
+import numpy as np
+from scipy.sparse import coo_array, csc_array
+from scipy.sparse.csgraph import dijkstra
+
+from solvers.layouts.arrangement import Arrangement, arrange
+from solvers.layouts.charts import Chart
+from solvers.layouts.connections import conditions, passing
+from solvers.layouts.crossings import crossings
+from solvers.layouts.curves import bare_loops, boundary_halfedges
+from solvers.layouts.joined_map import JoinedMap
+from solvers.layouts.nodes import Node, node_at, starts_at
+from solvers.layouts.rims import with_rims
+from solvers.layouts.separatrices import Separatrices, as_curves
+from solvers.layouts.stops import Stops, left_of, stops
+from solvers.layouts.tracing import trace
+
+EXACT = 1e-6
+"""How far beside a node a trace meets it, in typical edges of the map."""
+
+LONGEST, SHORTEST = 4.0, 0.06
+"""Length at which a trace counts as a limit cycle, in diameters of the map, and the least to which
+it is reduced where the layout would become too fine."""
+
+CROSSINGS = 2
+"""Crossings for each trace, beside a hundred for all, that make a layout too fine."""
+
+
+class Drawing:
+    """Traces from nodes, in a map as it was when they were traced.
+
+    Parameters
+    ----------
+    map_ : JoinedMap
+        The map.
+    singular, featured, seeds : sequence of Node
+        Singularities and corners, the ends of feature curves, and where else traces start.
+    longest : float
+        Length at which traces are given up, in diameters of the map.
+    """
+
+    def __init__(
+        self,
+        map_: JoinedMap,
+        singular: Sequence[Node],
+        featured: Sequence[Node],
+        longest: float,
+        seeds: Sequence[Node] = (),
+    ) -> None:
+        self._map = map_
+        self._singular, self._featured, self._seeds = singular, featured, seeds
+        self._nodes = nodes = [*singular, *featured, *seeds]
+        self._longest = longest
+        chart = map_.chart
+        self._diameter = _diameter(chart)
+        starts = starts_at(chart, nodes)
+        length = longest * self._diameter
+        self.traces = trace(chart, nodes, starts, EXACT * chart.edge_length, length)
+        self.crossings = crossings(chart, self.traces.chords)
+
+    @cached_property
+    def _stops(self) -> Stops:
+        """How far the traces are kept: as far as the layout does not become too fine."""
+        longest = LONGEST
+        while True:
+            stopped = stops(self.traces, self.crossings, longest * self._diameter)
+            count = len(left_of(self.crossings, stopped))
+            if longest < SHORTEST or count <= 100 + CROSSINGS * len(stopped.kept):
+                return stopped
+            longest /= 2
+
+    def offsets(self) -> csc_array:
+        """Return how far nodes that traces pass too closely are off them, as rows of the map."""
+        rimmed = with_rims(self.traces, self._nodes, boundary_halfedges(self._map.surface))
+        found = passing(rimmed, crossings(rimmed.chart, rimmed.chords), len(self._nodes))
+        return conditions(rimmed, found, self._map.turned)
+
+    def again(self, longest: float | None = None) -> Drawing:
+        """Return the same in the map as it is now, perhaps with longer traces."""
+        singular, featured, seeds = (
+            [node_at(self._map.chart, n.vertex, n.quads) for n in nodes]
+            for nodes in (self._singular, self._featured, self._seeds)
+        )
+        return Drawing(self._map, singular, featured, longest or self._longest, seeds)
+
+    def seeded(self, vertex: int, quads: int) -> Drawing:
+        """Return the same with traces from one more vertex."""
+        seeds = [*self._seeds, node_at(self._map.chart, vertex, quads)]
+        return Drawing(self._map, self._singular, self._featured, self._longest, seeds)
+
+    def missing(self) -> tuple[int, int] | None:
+        """Return where traces are missing, and the number of quads that meet there."""
+        loops = boundary_halfedges(self._map.surface)
+        if not loops and not self._nodes:
+            return 0, 4  # a torus without singularities
+        bare = bare_loops(loops, self._nodes, self.traces, self._stops)
+        if not len(bare):
+            return None
+        return int(self._map.surface.boundary_loops[bare[0]][0]), 2
+
+    def arrangement(self) -> Arrangement:
+        """Return the rectangles between the traces."""
+        n_critical = len(self._singular) + len(self._featured)
+        critical = np.arange(len(self._nodes)) < n_critical
+        return arrange(
+            self._map.surface, self._nodes, critical, self.traces, self.crossings, self._stops
+        )
+
+    def separatrices(self) -> Separatrices:
+        """Return the traces as curves on the surface."""
+        own = np.arange(len(self._nodes)) < len(self._singular)
+        return as_curves(self._map.surface, self._nodes, own, self.traces, self._stops)
+
+
+def _diameter(chart: Chart) -> float:
+    """Return about the largest distance between vertices in a map."""
+    t = chart.triangulation
+    h = t.edge_halfedges
+    length = np.abs(chart.images.reshape(-1)[h])
+    graph = coo_array((length, (t.tail[h], t.head[h])), shape=(t.n_vertices, t.n_vertices))
+    far = dijkstra(graph.tocsr(), directed=False, indices=0).argmax()
+    return float(dijkstra(graph.tocsr(), directed=False, indices=far).max())

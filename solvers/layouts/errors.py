@@ -1,0 +1,26 @@
+"""What layouts are refused with."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from solvers.errors import CrossviewError
+from solvers.triangulation import IntArray
+
+
+class LayoutError(CrossviewError):
+    """No layout can be made of a field.
+
+    Parameters
+    ----------
+    what, where, remedy : str
+        As in `CrossviewError`.
+    faces : (k,) int array, optional
+        Triangles of the field's surface that are to blame.
+    """
+
+    def __init__(
+        self, what: str, where: str = "", remedy: str = "", faces: IntArray | None = None
+    ) -> None:
+        super().__init__(what, where, remedy)
+        self.faces = np.zeros(0, dtype=np.int64) if faces is None else faces

@@ -1,0 +1,121 @@
+"""The seamless map of a field in which separatrices meet the nodes they nearly meet."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from solvers.aligned import IntegratedField
+from solvers.features import Features
+from solvers.layouts.charts import QUARTER, Chart
+from solvers.layouts.errors import LayoutError
+from solvers.seamless import SeamlessFit
+from solvers.surface import TriSurface
+from solvers.triangulation import IntArray
+
+LITTLE = np.radians(2)
+"""By how much the map may turn crosses that were turned before it was made."""
+
+MOST = 100
+"""Separatrices that are joined at once."""
+
+SPOILT = 0.03
+"""Distance of a map from what the field asks for beyond which separatrices are not joined."""
+
+
+class JoinedMap:
+    """The seamless map of a field while it is turned and joined.
+
+    Parameters
+    ----------
+    integrated : IntegratedField
+        The field.
+
+    Attributes
+    ----------
+    chart : Chart
+        The map as it is now.
+    turned : float
+        Angle that all crosses have been turned by, radians.
+    """
+
+    def __init__(self, integrated: IntegratedField) -> None:
+        self.integrated = integrated
+        self._integrability = integrated.aligned.integrability
+        self._fit = SeamlessFit(self._integrability, integrated.x)
+        self.turned = 0.0
+        self.chart = self._chart()
+
+    @property
+    def surface(self) -> TriSurface:
+        """What is mapped."""
+        return self.integrated.field.surface
+
+    @property
+    def play(self) -> float:
+        """By how much all crosses may be turned and are as good, radians: 0 if something holds
+        them, little if they have been turned to be as they are.
+        """
+        bound = bool(self.surface.boundary_loops) or len(self.features) > 0
+        if bound or self.integrated.field.half_log_aspect.any():
+            return 0.0
+        return QUARTER / 2 if self.integrated.aligned.turned is None else LITTLE
+
+    @property
+    def features(self) -> Features:
+        """The edges that crosses follow."""
+        return self._integrability.discretization.features
+
+    @property
+    def mended(self) -> int:
+        """Number of triangles made stiffer."""
+        return self._fit.mended
+
+    @property
+    def flipped(self) -> IntArray:
+        """Triangles turned over."""
+        return self._fit.map.flipped
+
+    def turn(self, angle: float) -> None:
+        """Turn all crosses."""
+        self.turned = angle
+        self.chart = self._chart()
+
+    def join(self, rows: csc_array) -> bool:
+        """Fit the map again so that also combinations of images vanish: of the first as many rows
+        as do not spoil it. Return whether it was.
+        """
+        before, rows = self._fit, csc_array(rows[:MOST])
+        kept, count = before.joins.rows.shape[0], rows.shape[0]
+        every, most = before.joining(rows), max(SPOILT, 2 * before.map.distance)
+        while count:
+            if (fit := before.joined(every.first(kept + count), most)) is not None:
+                self._fit = fit
+                self.chart = self._chart()
+                return True
+            count //= 2
+        return False
+
+    def _chart(self) -> Chart:
+        images = self._fit.map.images @ np.array([1, 1j]) * np.exp(-1j * self.turned)
+        return Chart(self.surface.triangulation, images, self._integrability.quarter_turns)
+
+    def require_upright(self) -> None:
+        """Raise `LayoutError` if triangles are turned over."""
+        over = self.flipped
+        if len(over) == 0:
+            return
+        field = self.integrated.field
+        places = field.surface.positions([s.point for s in field.singularities])
+        where = ""
+        if len(places):
+            gaps = np.linalg.norm(field.surface.barycentres[over][:, None] - places, axis=2)
+            near = np.unique(gaps.argmin(axis=1)) + 1
+            where = "near " + ", ".join(f"singularity {n}" for n in near[:4])
+        which = "1 triangle is" if len(over) == 1 else f"{len(over)} triangles are"
+        raise LayoutError(
+            f"{which} turned over in the seamless map",
+            where,
+            "move these singularities apart, refine more around them, or take a finer mesh",
+            faces=over,
+        )

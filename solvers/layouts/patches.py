@@ -1,0 +1,104 @@
+"""The patches of a layout, sampled for pictures."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from solvers.layouts.arrangement import Arrangement
+from solvers.layouts.charts import AXES
+from solvers.layouts.crossings import ends_of
+from solvers.layouts.straight import barycentric_in, walk
+from solvers.surface import TriSurface
+from solvers.triangulation import FloatArray, IntArray
+
+COARSEST, FINEST = 16, 64
+"""Cells along a side of a patch."""
+
+
+@dataclass(frozen=True, eq=False)
+class PatchMesh:
+    """Patches as fine grids of quads that share no vertex with each other.
+
+    Parameters
+    ----------
+    points : (p, 3) float array
+        On the surface.
+    quads : (q, 4) int array
+        Counter-clockwise.
+    patch : (q,) int array
+        The patch each lies in.
+    """
+
+    points: FloatArray
+    quads: IntArray
+    patch: IntArray
+
+
+def sampled(surface: TriSurface, arrangement: Arrangement) -> PatchMesh:
+    """Sample every rectangle about as finely as the surface's triangles are.
+
+    Parameters
+    ----------
+    surface : TriSurface
+        The surface.
+    arrangement : Arrangement
+        The rectangles on it.
+    """
+    tmesh, curves = arrangement.tmesh, arrangement.curves
+    sides = tmesh.side_totals(tmesh.lengths)[:, :2]
+    cells = np.clip(np.ceil(2 * sides / curves.chart.edge_length), COARSEST, FINEST).astype(
+        np.int64
+    )
+    starts, ways, quads, first = [], [], [], 0
+    for r, (height, (w, h)) in enumerate(zip(sides[:, 1], cells, strict=True)):
+        start = np.repeat(_along(arrangement, tmesh.side(r, 0), w)[:, :, None], h + 1, axis=2)
+        way = np.tile(1j * np.arange(h + 1) * height / h, (w + 1, 1))
+        # The other sides are where their arcs are: what walks along one may stray beside it.
+        start[:, -1] = _along(arrangement, tmesh.side(r, 1), h)
+        start[:, ::-1, -1] = _along(arrangement, tmesh.side(r, 2), w)
+        start[:, 0, ::-1] = _along(arrangement, tmesh.side(r, 3), h)
+        way[0] = way[-1] = way[:, -1] = 0.0
+        starts.append(start.reshape(3, -1))
+        ways.append(way.reshape(-1))
+        number = first + np.arange((w + 1) * (h + 1)).reshape(w + 1, h + 1)
+        corners = [number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]]
+        quads.append(np.stack(corners, axis=2).reshape(-1, 4))
+        first += number.size
+    chord, part, sign = np.concatenate(starts, axis=1)
+    chord = chord.astype(np.int64)
+    start, end = (ends[chord] for ends in ends_of(curves.chart, curves.chords))
+    along = AXES[curves.chords.axis[chord]] * sign
+    face, place = walk(
+        curves.chart,
+        curves.chords.face[chord],
+        start + part * (end - start),
+        np.concatenate(ways) * along,
+    )
+    weights = barycentric_in(curves.chart, face, place)
+    points = np.einsum("kc,kcd->kd", weights, surface.vertices[surface.faces[face]])
+    patch = np.repeat(np.arange(len(quads)), [len(q) for q in quads])
+    return PatchMesh(points, np.concatenate(quads), patch)
+
+
+def _along(arrangement: Arrangement, halfarcs: IntArray, cells: int) -> FloatArray:
+    """Return evenly spaced places (3, cells + 1) along a side of a rectangle.
+
+    For each the chord of a curve, how far along it, 0 to 1, and 1 or -1: whether the side runs
+    along the curve or against it.
+    """
+    arc, backwards = halfarcs // 2, halfarcs % 2
+    ends = np.cumsum(arrangement.tmesh.lengths[arc])
+    places = np.arange(cells + 1) * ends[-1] / cells
+    on = np.minimum(np.searchsorted(ends, places), len(arc) - 1)
+    start, end = arrangement.arc_span[arc].T
+    beyond = places - (ends - arrangement.tmesh.lengths[arc])[on]
+    at = np.where(backwards[on], end[on] - beyond, start[on] + beyond)
+    found = np.empty((3, len(on)))
+    for i in np.unique(on):
+        chosen = on == i
+        curve = int(arrangement.arc_curve[arc[i]])
+        found[:2, chosen] = arrangement.curves.chords_at(curve, at[chosen])
+    found[2] = 1 - 2 * backwards[on]
+    return found

@@ -1,0 +1,1 @@
+"""From a layout to quads: whole numbers for its arcs, grids in its rectangles, smoothing."""

@@ -1,0 +1,203 @@
+"""Whole numbers of quads for the arcs of a T-mesh, by mixed-integer programming.
+
+Opposite sides of every rectangle get the same number. The arcs stay as near as possible to their
+lengths in units of the edge length, and so do the offsets between nodes that nearly face another
+across a rectangle, where lines of quads would slant; both in the sum of absolute deviations. The
+arcs alone make a minimum-cost flow through the rectangles, so branching has little to do.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.sparse import csr_array, vstack
+
+from solvers.errors import CrossviewError, SolveError
+from solvers.layouts.tmesh import TMesh
+from solvers.quads.collapse import Cut
+from solvers.quads.integer_program import arcs_alone, offsets
+from solvers.quads.unbroken import hasty, unbroken
+from solvers.triangulation import IntArray
+
+MOST_QUADS = 5_000_000
+"""Finer meshes are not made."""
+
+NEAR_ENOUGH = 0.01
+"""Relative distance from a wanted number of quads at which looking further ends."""
+
+FAR = 1.5
+"""So many times the wanted number, twice, is the least that there is."""
+
+STRAIGHTENING = 0.2
+"""Share of the time limit for counts that are nearest with `offsets`, besides those without."""
+
+MOST_TRIALS = 8
+"""Programs solved at most for a wanted number of quads."""
+
+
+@dataclass(frozen=True, eq=False)
+class Quantization:
+    """Whole numbers of quads along the arcs of a T-mesh.
+
+    Parameters
+    ----------
+    counts : (A,) int array
+        Edges of quads along each arc.
+    edge_length : float
+        What was asked for, in units of the map.
+    n_quads : int
+        Number of quads that the counts give.
+    deviation : float
+        Sum of the distances of the arcs' counts, and of `offsets`, from what lengths / edge
+        length make of them.
+    optimal : bool
+        False if time was up before the counts were known to be the best.
+    """
+
+    counts: IntArray
+    edge_length: float
+    n_quads: int
+    deviation: float
+    optimal: bool
+
+
+def quantize(
+    tmesh: TMesh, edge_length: float, *, collapse: bool = False, time_limit: float = 10.0
+) -> Quantization:
+    """Return the counts nearest to the arcs' lengths, at least 1 each.
+
+    Parameters
+    ----------
+    tmesh : TMesh
+        The rectangles.
+    edge_length : float
+        Wanted length of the quads' edges, in units of the map.
+    collapse : bool, optional
+        Let short arcs have no edge where topology and singularities stay what they are; curves
+        that nearly coincide become one.
+    time_limit : float, optional
+        Seconds after which the best counts found are taken.
+
+    Raises
+    ------
+    CrossviewError
+        If the edge length is not positive, or makes more than `MOST_QUADS` quads.
+    SolveError
+        If time was up before any counts were found.
+    """
+    cuts: list[Cut] = []
+    found = _nearest(tmesh, edge_length, collapse, time_limit, cuts)
+    return _straightened(found, tmesh, collapse, STRAIGHTENING * time_limit, cuts)
+
+
+def quantize_to(
+    tmesh: TMesh, n_quads: int, *, collapse: bool = False, time_limit: float = 10.0
+) -> Quantization:
+    """Return the counts whose number of quads is nearest to a wanted one, by a few programs.
+
+    Parameters
+    ----------
+    tmesh : TMesh
+        The rectangles.
+    n_quads : int
+        Wanted number of quads.
+    collapse : bool, optional
+        Let short arcs have no edge, as in `quantize`.
+    time_limit : float, optional
+        Seconds after which the best counts found are taken.
+
+    Raises
+    ------
+    CrossviewError
+        If fewer than one or more than `MOST_QUADS` quads are wanted.
+    """
+    if not 1 <= n_quads <= MOST_QUADS:
+        raise CrossviewError(
+            f"cannot make {n_quads} quads", "", f"ask for a number from 1 to {MOST_QUADS}"
+        )
+    length = np.sqrt(tmesh.area / n_quads)
+    low, high = 0.0, np.inf
+    end = time.monotonic() + time_limit
+    cuts: list[Cut] = []
+    best = found = _nearest(tmesh, float(length), collapse, time_limit, cuts)
+    for _ in range(MOST_TRIALS - 1):
+        left = end - time.monotonic()
+        if abs(best.n_quads - n_quads) <= NEAR_ENOUGH * n_quads or left < 0.1 * time_limit:
+            break
+        low, high = (length, high) if found.n_quads > n_quads else (low, length)
+        before = found.n_quads
+        # The number goes with the inverse square; where that leads out of the bounds, halve.
+        length = length * np.sqrt(found.n_quads / n_quads)
+        if length <= low or length >= high:
+            length = np.sqrt(low * high)
+        try:
+            found = _nearest(tmesh, float(length), collapse, left, cuts)
+        except SolveError:
+            break
+        if abs(found.n_quads - n_quads) < abs(best.n_quads - n_quads):
+            best = found
+        if found.n_quads == before > FAR * n_quads:
+            break  # there are no fewer
+    straight = _straightened(best, tmesh, collapse, STRAIGHTENING * time_limit, cuts)
+    off = max(abs(best.n_quads - n_quads), NEAR_ENOUGH * n_quads)
+    return straight if abs(straight.n_quads - n_quads) <= off else best
+
+
+def number_of_quads(tmesh: TMesh, counts: IntArray) -> int:
+    """Return how many quads fill the rectangles, given the counts (A,) of the arcs."""
+    sides = np.rint(tmesh.side_totals(counts.astype(float)))
+    return int((sides[:, 0] * sides[:, 1]).sum())
+
+
+def _nearest(
+    tmesh: TMesh, edge_length: float, collapse: bool, time_limit: float, cuts: list[Cut]
+) -> Quantization:
+    """Return counts near to the arcs' lengths alone; conditions found on the way join `cuts`."""
+    if not np.isfinite(edge_length) or edge_length <= 0:
+        raise CrossviewError(f"the edge length must be a positive number, not {edge_length!r}")
+    if tmesh.area / edge_length**2 > MOST_QUADS:
+        raise CrossviewError(
+            f"edges of {edge_length:.3g} make {tmesh.area / edge_length**2:.3g} quads",
+            f"at most {MOST_QUADS:.3g}",
+            "choose longer edges",
+        )
+    wanted, half = tmesh.lengths / edge_length, 0.5 * time_limit
+    counts, optimal = unbroken(tmesh, wanted, arcs_alone(tmesh), collapse, half, cuts)
+    if counts is None:
+        counts = hasty(tmesh, wanted, collapse, half, cuts)
+    if counts is None and collapse:
+        return _nearest(tmesh, edge_length, False, time_limit, [])
+    if counts is None:
+        raise SolveError(
+            "no numbers of quads were found for the arcs of the layout",
+            f"within {time_limit:g} s",
+            "choose shorter edges",
+        )
+    return _quantization(tmesh, counts, edge_length, optimal)
+
+
+def _straightened(
+    found: Quantization, tmesh: TMesh, collapse: bool, time_limit: float, cuts: list[Cut]
+) -> Quantization:
+    """Return counts that are nearest with `offsets`, too, if there are any in time."""
+    across = offsets(tmesh)
+    if across.shape[0] == 0:
+        return found
+    measured = csr_array(vstack([arcs_alone(tmesh), across]))
+    wanted = tmesh.lengths / found.edge_length
+    counts, optimal = unbroken(tmesh, wanted, measured, collapse, time_limit, cuts)
+    if counts is not None:
+        straight = _quantization(tmesh, counts, found.edge_length, optimal)
+        if straight.deviation <= found.deviation:
+            return straight
+    return replace(found, optimal=False)
+
+
+def _quantization(
+    tmesh: TMesh, counts: IntArray, edge_length: float, optimal: bool
+) -> Quantization:
+    off = counts - tmesh.lengths / edge_length
+    total = float(np.abs(off).sum() + np.abs(offsets(tmesh) @ off).sum())
+    return Quantization(counts, edge_length, number_of_quads(tmesh, counts), total, optimal)

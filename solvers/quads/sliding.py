@@ -1,0 +1,161 @@
+"""Moving the vertices of a quad mesh on their surface and along their rails."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from solvers.quads.projection import Projection
+from solvers.quads.quadmesh import QuadMesh, scaled_jacobian
+from solvers.quads.rails import Rail
+from solvers.triangulation import FloatArray, IntArray
+
+REACH = 0.4
+"""Share of the gap to its neighbour on the rail that a vertex may cross in one step."""
+
+
+@dataclass(frozen=True, eq=False)
+class Places:
+    """Where vertices are.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float array
+        Coordinates.
+    faces : (n,) int array
+        Triangle each lies in.
+    weights : (n, 3) float array
+        Its weights there.
+    s : (n,) float array
+        Length along its rail, if it has one.
+    """
+
+    vertices: FloatArray
+    faces: IntArray
+    weights: FloatArray
+    s: FloatArray
+
+    def at(self, ids: IntArray) -> Places:
+        """Return the places of some vertices."""
+        return Places(self.vertices[ids], self.faces[ids], self.weights[ids], self.s[ids])
+
+    def put(self, ids: IntArray, other: Places) -> Places:
+        """Return these places with those of some vertices replaced."""
+        made = Places(self.vertices.copy(), self.faces.copy(), self.weights.copy(), self.s.copy())
+        made.vertices[ids], made.faces[ids] = other.vertices, other.faces
+        made.weights[ids], made.s[ids] = other.weights, other.s
+        return made
+
+
+class Sliding:
+    """What holds the vertices of a quad mesh.
+
+    Parameters
+    ----------
+    mesh : QuadMesh
+        The mesh.
+    rails : list of Rail
+        Chains of edges of its surface.
+    rail : (n,) int array
+        The rail each vertex is on, or -1.
+    """
+
+    def __init__(self, mesh: QuadMesh, rails: list[Rail], rail: IntArray) -> None:
+        self.mesh, self.rails, self.rail = mesh, rails, rail
+        self._projection = Projection(mesh.surface)
+
+    def start(self) -> Places:
+        """Return where the vertices of the mesh are."""
+        mesh = self.mesh
+        s = np.zeros(mesh.n_vertices)
+        for i, rail in enumerate(self.rails):
+            on = np.flatnonzero(self.rail == i)
+            s[on] = rail.nearest(mesh.vertices[on])
+        return Places(mesh.vertices, mesh.faces, mesh.barycentric, s)
+
+    def quality(self, places: Places, quads: IntArray) -> FloatArray:
+        """Return the scaled Jacobians of quads (..., 4) given by their vertices."""
+        outward = self.mesh.surface.face_normals[places.faces[quads]].sum(axis=-2)
+        return scaled_jacobian(places.vertices[quads], outward)
+
+    def snapped(self, places: Places) -> tuple[Places, IntArray]:
+        """Put the nearest vertex of a rail on each of its corners that has none.
+
+        Returns
+        -------
+        places : Places
+            With vertices on the corners.
+        held : (k,) int array
+            Those vertices.
+        """
+        held: list[int] = []
+        s = places.s.copy()
+        for i, rail in enumerate(self.rails):
+            on = np.flatnonzero(self.rail == i)
+            for corner in rail.corners if len(on) else ():
+                gap = rail.apart(s[on], corner)
+                k = on[np.argmin(np.abs(gap))]
+                if not self.mesh.fixed[k] and k not in held:
+                    s[k] = corner
+                    held.append(int(k))
+        ids = np.array(held, dtype=np.int64)
+        return places.put(ids, self._on_rails(ids, s[ids])), ids
+
+    def moved(self, places: Places, ids: IntArray, targets: FloatArray) -> Places:
+        """Return where vertices come to when they are drawn towards targets.
+
+        Parameters
+        ----------
+        places : Places
+            Of all vertices.
+        ids : (k,) int array
+            Vertices, any number of times.
+        targets : (k, 3) float array
+            Where each would go if nothing held it.
+        """
+        faces, weights = places.faces[ids].copy(), places.weights[ids].copy()
+        vertices, s = places.vertices[ids].copy(), places.s[ids].copy()
+        railed = self.rail[ids] >= 0
+        loose = np.flatnonzero(~railed)
+        faces[loose], weights[loose] = self._projection.slide(faces[loose], targets[loose])
+        vertices[loose] = self._projection.positions(faces[loose], weights[loose])
+        made = Places(vertices, faces, weights, s)
+        if not railed.any():
+            return made
+        at = np.flatnonzero(railed)
+        who = ids[at]
+        behind, ahead = self._gaps(places)
+        small = 0.25 * np.minimum(behind, ahead)[who]
+        tangent = self._on_rails(who, s[at] + small).vertices
+        tangent -= self._on_rails(who, s[at] - small).vertices
+        tangent /= np.maximum(np.linalg.norm(tangent, axis=1), 1e-300)[:, None]
+        step = ((targets[at] - vertices[at]) * tangent).sum(axis=1)
+        step = np.clip(step, -REACH * behind[who], REACH * ahead[who])
+        return made.put(at, self._on_rails(who, s[at] + step))
+
+    def _on_rails(self, ids: IntArray, s: FloatArray) -> Places:
+        """Return the places of vertices at lengths s along their rails."""
+        made = Places(np.zeros((len(ids), 3)), np.zeros_like(ids), np.zeros((len(ids), 3)), s)
+        for i, rail in enumerate(self.rails):
+            on = np.flatnonzero(self.rail[ids] == i)
+            if len(on):
+                made = made.put(on, Places(rail.positions(s[on]), *rail.points(s[on]), s[on]))
+        return made
+
+    def _gaps(self, places: Places) -> tuple[FloatArray, FloatArray]:
+        """Return the lengths (n,) to the vertices behind and ahead on the same rail."""
+        behind, ahead = np.zeros((2, len(self.rail)))
+        for i, rail in enumerate(self.rails):
+            on = np.flatnonzero(self.rail == i)
+            if len(on) == 0:
+                continue
+            order = on[np.argsort(rail.inside(places.s[on]), kind="stable")]
+            s = rail.inside(places.s[order])
+            if rail.closed:
+                gap = np.append(np.diff(s), s[0] + rail.length - s[-1])
+                ahead[order], behind[order] = gap, np.roll(gap, 1)
+            else:
+                gap = np.concatenate([[s[0]], np.diff(s), [rail.length - s[-1]]])
+                behind[order], ahead[order] = gap[:-1], gap[1:]
+        return behind, ahead

@@ -1,0 +1,198 @@
+"""Smoothing of a quad mesh on its surface: every quad is drawn towards a rectangle.
+
+Local step: each quad asks its corners to be those of the nearest rectangle whose sides are its own
+mean sides, drawn somewhat towards those it had at first, so that sizes and aspects stay. Global
+step: each vertex takes the mean of what its quads ask for, small quads counting as much as large
+ones, and is put back on the surface or on its rail. Where a quad would become worse than the worst
+before, its vertices stay.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from solvers.quads.quadmesh import QuadMesh
+from solvers.quads.rails import Rail, boundary_rails
+from solvers.quads.sliding import Places, Sliding
+from solvers.quads.untangling import POOR, improve_worst
+from solvers.triangulation import FloatArray, IntArray
+
+ROUNDS = 30
+"""How often all vertices move."""
+
+STAGES = 3
+"""Such rounds at most, poor quads improved one by one after each."""
+
+PULL = 0.3
+"""How much of a rectangle's sides, in logarithms, is what they were at first."""
+
+WORST = 0.1
+"""What the worst quad counts beside the mean of all, when rounds are compared."""
+
+PATIENCE, LITTLE = 5, 1e-4
+"""Rounds without as much improvement, after which no more are tried."""
+
+ON_RAIL = 1e-9
+"""Distance from a rail, in diagonals of the surface, that counts as none."""
+
+RETREATS = 10
+"""How often vertices around spoilt quads are put back before a round is given up."""
+
+
+def smooth(
+    mesh: QuadMesh,
+    *,
+    curves: Sequence[IntArray] = (),
+    rounds: int = ROUNDS,
+) -> QuadMesh:
+    """Return a mesh with quads more like rectangles, none worse than the worst before.
+
+    Vertices stay on the surface, those of a boundary or a curve on it, fixed ones where they are.
+    The nearest vertex is put on each sharp turn of a boundary or a curve, if no quad becomes
+    worse for it than the worst before and than `POOR`.
+
+    Parameters
+    ----------
+    mesh : QuadMesh
+        What to smooth.
+    curves : sequence of (k,) int array, optional
+        Chains of surface vertices joined by edges; the first again at the end of a closed one.
+        Edges of the mesh that lie on one stay on it.
+    rounds : int, optional
+        How often all vertices move.
+
+    Notes
+    -----
+    The local step is shape matching (Bouaziz et al. 2012, "Shape-Up").
+    """
+    rails = boundary_rails(mesh.surface)
+    rail, held = mesh.boundary_loop.copy(), mesh.fixed.copy()
+    for curve in curves:
+        rails.append(Rail(mesh.surface, curve))
+        on = _run_along(mesh, rails[-1])
+        # What lies on two curves, or on one and the boundary, is held by both.
+        held[on[rail[on] >= 0]] = True
+        rail[on] = np.where(rail[on] >= 0, rail[on], len(rails) - 1)
+    sliding = Sliding(replace(mesh, fixed=held), rails, rail)
+    start = sliding.start()
+    least = float(mesh.scaled_jacobian.min(initial=POOR))
+    snapped, on_corners = sliding.snapped(start)
+    while True:
+        found = _smoothed(sliding, snapped, on_corners, rounds)
+        spoilt = mesh.quads[sliding.quality(found, mesh.quads) < least]
+        if len(on_corners) == 0 or len(spoilt) == 0:
+            break
+        # Let go of the corners that cost too much; if it is not they, of all.
+        guilty = np.isin(on_corners, spoilt)
+        on_corners = on_corners[~guilty] if guilty.any() else on_corners[:0]
+        snapped = start.put(on_corners, snapped.at(on_corners))
+    return replace(mesh, vertices=found.vertices, faces=found.faces, barycentric=found.weights)
+
+
+def _run_along(mesh: QuadMesh, rail: Rail) -> IntArray:
+    """Return the vertices of the edges of a mesh that lie on a rail."""
+    gap = np.linalg.norm(rail.positions(rail.nearest(mesh.vertices)) - mesh.vertices, axis=1)
+    near = gap < ON_RAIL * mesh.surface.diagonal
+    return np.unique(mesh.edges[near[mesh.edges].all(axis=1)])
+
+
+def _smoothed(sliding: Sliding, places: Places, held: IntArray, rounds: int) -> Places:
+    """Return better places, with the vertices `held` where they are."""
+    mesh = sliding.mesh
+    fixed = mesh.fixed.copy()
+    fixed[held] = True
+    free = np.flatnonzero(~fixed)
+    sides = np.linalg.norm(_mean_sides(mesh.vertices[mesh.quads]), axis=2)
+    sides = np.maximum(sides, 1e-9 * sides.max(initial=1e-300))
+    for _ in range(STAGES):
+        places = _rounds(sliding, places, free, sides, rounds)
+        if sliding.quality(places, mesh.quads).min(initial=1.0) >= POOR:
+            break
+        places = improve_worst(sliding, places, free)
+    return places
+
+
+def _rounds(
+    sliding: Sliding, places: Places, free: IntArray, sides: FloatArray, rounds: int
+) -> Places:
+    """Return the best places of many rounds, which end when they lead to nothing better."""
+    quality = sliding.quality(places, sliding.mesh.quads)
+    best, best_score, since = places, _score(quality), 0
+    for _ in range(rounds):
+        places, quality = _round(sliding, places, quality, free, sides)
+        score = _score(quality)
+        since = 0 if score > best_score + LITTLE else since + 1
+        if score > best_score:
+            best, best_score = places, score
+        if since == PATIENCE:
+            break
+    return best
+
+
+def _score(quality: FloatArray) -> float:
+    return float(quality.mean() + WORST * quality.min()) if len(quality) else 0.0
+
+
+def _round(
+    sliding: Sliding, places: Places, quality: FloatArray, free: IntArray, sides: FloatArray
+) -> tuple[Places, FloatArray]:
+    """Return places and qualities after two steps that leave no quad below the worst before."""
+    mesh, quads = sliding.mesh, sliding.mesh.quads
+    outward = mesh.surface.face_normals[places.faces[quads]].sum(axis=1)
+    asked = rectangles(places.vertices[quads], outward, sides).reshape(-1, 3)
+    weight = np.repeat(1 / sides.prod(axis=0), 4)
+    total = [np.bincount(quads.reshape(-1), weight * x, mesh.n_vertices) for x in asked.T]
+    weights = np.bincount(quads.reshape(-1), weight, mesh.n_vertices)
+    means = np.stack(total, axis=1) / weights[:, None]
+    moved = places.put(free, sliding.moved(places, free, means[free]))
+    least = quality.min(initial=1.0)
+    for _ in range(RETREATS):
+        found = sliding.quality(moved, quads)
+        if found.min(initial=1.0) >= least:
+            return moved, found
+        back = np.unique(quads[found < least])
+        moved = moved.put(back, places.at(back))
+    return places, quality
+
+
+def rectangles(corners: FloatArray, outward: FloatArray, sides: FloatArray) -> FloatArray:
+    """Return, for each quad, the nearest rectangle of about its own sides.
+
+    Parameters
+    ----------
+    corners : (q, 4, 3) float array
+        Counter-clockwise seen from outside.
+    outward : (q, 3) float array
+        Vectors that point to the outside; a quad that is turned over asks to be turned back.
+    sides : (2, q) float array
+        Lengths that the sides, from corner 0 to 1 and from 1 to 2, are drawn to.
+
+    Returns
+    -------
+    (q, 4, 3) float array
+        Corners of the rectangles.
+    """
+    first, second = _mean_sides(corners)
+    width, height = np.linalg.norm([first, second], axis=2) ** (1 - PULL) * sides**PULL
+    first, second = _unit(first), _unit(second)
+    over = (np.cross(first, second) * outward).sum(axis=1) <= 0
+    # The diagonals of the square on unit vectors along the mean sides are orthogonal.
+    long, short = _unit(first + second), first - second
+    short = _unit(np.where(over[:, None], np.cross(long, outward), short))
+    u = np.sqrt(0.125) * width[:, None] * (long + short)
+    v = np.sqrt(0.125) * height[:, None] * (long - short)
+    middle = corners.mean(axis=1)
+    return np.stack([middle - u - v, middle + u - v, middle + u + v, middle - u + v], axis=1)
+
+
+def _mean_sides(corners: FloatArray) -> FloatArray:
+    """Return (2, q, 3) the means of opposite sides of quads (q, 4, 3)."""
+    a, b, c, d = (corners[:, i] for i in range(4))
+    return 0.5 * np.stack([b - a + c - d, c - b + d - a])
+
+
+def _unit(vectors: FloatArray) -> FloatArray:
+    return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=1), 1e-300)[:, None])
