@@ -19,9 +19,16 @@ BAR_WIDTH, BAR_HEIGHT, BAR_COLORS = 14.0, 170.0, 128
 BAR_GAP, BAR_TITLE = 7.0, 16.0
 # Room that the colour bar and the legend need on the right and at the bottom.
 BAR_ROOM, LEGEND_ROOM = 96.0, 46.0
+# Width of a letter of the colour bar's title.
+LETTER = 7.5
 # Height of the legend's line and of the colour bar's foot.
 FOOT = MARGIN + 4.0
 DISC, _FIRST, _STEP = 6.5, 74.0, 46.0
+
+
+def bar_room(shown: str) -> float:
+    """Return the room, pixels, that the colour bar of a scalar and its title need on the right."""
+    return max(BAR_ROOM, 2 * MARGIN + LETTER * len(SCALARS[shown].title))
 
 
 class TitleLayer:

@@ -21,6 +21,7 @@ from crossview.scene.legend import (
     ColorBarLayer,
     TitleLayer,
     ValenceLegendLayer,
+    bar_room,
 )
 from crossview.scene.marks import MarksLayer
 from crossview.scene.problems import ProblemLayer
@@ -166,6 +167,11 @@ class Scene:
         if self._bar is not None:
             self._bar.remove()
 
+    def _right_room(self, all_texts: bool) -> float:
+        shown = shown_scalar(self._view)
+        room = bar_room(shown) if shown else BAR_ROOM if all_texts else MARGIN
+        return room * self._ratio
+
     def _room(self, all_texts: bool) -> Room:
         width, height = self._plotter.window_size
         margin = MARGIN * self._ratio
@@ -174,7 +180,7 @@ class Scene:
             width,
             height,
             left=margin,
-            right=BAR_ROOM * self._ratio if all_texts or shown_scalar(view) else margin,
+            right=self._right_room(all_texts),
             top=2.2 * margin if view.title else margin,
             bottom=LEGEND_ROOM * self._ratio if all_texts or view.singularities else margin,
         )
