@@ -33,9 +33,9 @@ FORMATS = ("vtk", "obj")
 def report(solution: Solution, quads: QuadMesh | None = None) -> dict[str, Any]:
     """The report of a solution as JSON values; angles in degrees, indices in quarter turns.
 
-    "surface" is the surface as given, "solved_on" the one refined around the singularities;
-    "boundary_misalignment_degrees" follows the order of ``surface.boundary_loops`` of the first.
-    "holonomy" and "isotropically_valid" are those of the isotropic field of the configuration,
+    "surface" is the surface as given, "solved_on" the one refined around the singularities
+    (quality of triangles: 1 equilateral, 0 degenerate); "boundary_misalignment_degrees" follows
+    the order of ``surface.boundary_loops`` of the first. "holonomy" and "isotropically_valid" are those of the isotropic field of the configuration,
     whatever the method. "layout" tells of the separatrices, and of patches if the layout has been
     made; "quads" is there if a quad mesh is given.
     """
@@ -51,7 +51,12 @@ def report(solution: Solution, quads: QuadMesh | None = None) -> dict[str, Any]:
             "genus": surface.genus,
             "boundary_loops": len(surface.boundary_loops),
         },
-        "solved_on": {"vertices": solved_on.n_vertices, "faces": solved_on.n_faces},
+        "solved_on": {
+            "vertices": solved_on.n_vertices,
+            "faces": solved_on.n_faces,
+            "min_triangle_quality": float(solved_on.triangle_quality.min()),
+            "mean_triangle_quality": float(solved_on.triangle_quality.mean()),
+        },
         "notes": list(problem.notes),
         "singularities": _singularities(solution),
         "corners": [

@@ -52,6 +52,7 @@ def test_sphere_with_the_cubes_eight(solved, tmp_path):
     assert (surface["euler_characteristic"], surface["genus"]) == (2, 0)
     assert surface["boundary_loops"] == 0
     assert report["solved_on"]["faces"] > surface["faces"]
+    assert 0 < report["solved_on"]["min_triangle_quality"] < 1
     assert [(s["valence"], s["index"]) for s in report["singularities"]] == [(3, 1)] * 8
     given = np.array([position for position, _ in CUBE])
     assert np.allclose([s["position"] for s in report["singularities"]], given)
