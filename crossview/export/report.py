@@ -35,9 +35,10 @@ def report(solution: Solution, quads: QuadMesh | None = None) -> dict[str, Any]:
 
     "surface" is the surface as given, "solved_on" the one refined around the singularities
     (quality of triangles: 1 equilateral, 0 degenerate); "boundary_misalignment_degrees" follows
-    the order of ``surface.boundary_loops`` of the first. "holonomy" and "isotropically_valid" are those of the isotropic field of the configuration,
-    whatever the method. "layout" tells of the separatrices, and of patches if the layout has been
-    made; "quads" is there if a quad mesh is given.
+    the order of ``surface.boundary_loops`` of the first. "holonomy" and "isotropically_valid" are
+    those of the isotropic field of the configuration, whatever the method. "layout" tells of the
+    separatrices, and of patches if the layout has been made; "quads" is there if a quad mesh is
+    given.
     """
     problem, field = solution.problem, solution.field
     surface, solved_on = problem.surface, solution.surface
