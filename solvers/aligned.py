@@ -14,13 +14,14 @@ from functools import cached_property
 
 import numpy as np
 
+from solvers.closed_images import SeamlessMap
 from solvers.crossfield import Convergence, CrossField
 from solvers.discretization import QUARTER
 from solvers.errors import CrossviewError
 from solvers.feature_alignment import align_with_features
 from solvers.integrability import Integrability
 from solvers.isotropic import IsotropicSolver
-from solvers.seamless import SeamlessMap, seamless_map
+from solvers.seamless import seamless_map
 from solvers.singularities import Singularity
 from solvers.triangulation import FloatArray, IntArray
 
