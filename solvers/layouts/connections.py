@@ -39,7 +39,7 @@ def passing(traces: Traces, crossings: Crossings, n_nodes: int) -> IntArray:
     -------
     (p, 2) int array
         Where a trace meets one that leaves the node at right angles: the chords of both. The
-        least accidental come first.
+        least accidental come first; most that mean the same line are left out.
     """
     both = [crossings, Crossings(*(values[:, ::-1] for values in vars(crossings).values()))]
     chord = np.concatenate([c.chord for c in both])
@@ -52,7 +52,16 @@ def passing(traces: Traces, crossings: Crossings, n_nodes: int) -> IntArray:
     close &= trace[:, 0] < len(traces.ends)
     order = np.flatnonzero(close)[np.lexsort((at[close, 0], trace[close, 0]))]
     first = order[np.unique(trace[order, 0], return_index=True)[1]]
-    return chord[first[np.argsort(accident[first], kind="stable")]]
+    first = first[np.argsort(accident[first], kind="stable")]
+    return chord[first[_one_way(traces, trace[first], at[first, 0])]]
+
+
+def _one_way(traces: Traces, trace: IntArray, length: FloatArray) -> IntArray:
+    """Return which passings (p, 2) to keep: of two that tell of one line both ways, the first."""
+    node = np.append(traces.starts.node, -1)[np.minimum(trace, len(traces.ends))]
+    steps = np.rint(2 * length / traces.chart.edge_length).astype(np.int64)
+    lines = np.column_stack([node.min(axis=1), node.max(axis=1), steps])
+    return np.sort(np.unique(lines, axis=0, return_index=True)[1])
 
 
 def conditions(traces: Traces, passed: IntArray, turn: float) -> csc_array:

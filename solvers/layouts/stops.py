@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from solvers.layouts.crossings import Crossings
-from solvers.layouts.tracing import LENGTH, NODE, Traces
+from solvers.layouts.tracing import BORDER, LENGTH, NODE, Traces
 from solvers.triangulation import BoolArray, FloatArray
 
 
@@ -43,10 +43,11 @@ def stops(traces: Traces, crossings: Crossings, longest: float = np.inf) -> Stop
     traces, crossings
         The traces and where they cross.
     longest : float, optional
-        Traces that are longer, in the map, stop at others even if they come to an end.
+        Traces that are longer, in the map, stop at others even if they come to the boundary.
     """
     kept = ~_doubled(traces)
-    endless = ((traces.ends == LENGTH) | (traces.lengths > longest)) & kept
+    long = (traces.ends == BORDER) & (traces.lengths > longest)
+    endless = ((traces.ends == LENGTH) | long) & kept
     at = np.where(endless, np.inf, traces.lengths)
     limit_cycle = np.zeros(len(kept), dtype=bool)
     events = crossings[kept[crossings.trace].all(axis=1) & endless[crossings.trace].any(axis=1)]

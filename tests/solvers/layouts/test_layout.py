@@ -6,8 +6,13 @@ import pytest
 from solvers.aligned import IntegratedField, aligned_field
 from solvers.errors import CrossviewError
 from solvers.isotropic import IsotropicSolver
+from solvers.layouts.arrangement import arrange
+from solvers.layouts.crossings import crossings
 from solvers.layouts.errors import LayoutError
 from solvers.layouts.layout import QuadLayout, quad_layout
+from solvers.layouts.nodes import singular_nodes, starts_at
+from solvers.layouts.stops import stops
+from solvers.layouts.tracing import NODE, trace
 from solvers.layouts.turning import joining_turn
 from solvers.primitives import BUILTIN
 from solvers.progress import run
@@ -169,3 +174,22 @@ def test_a_boundary_holds_the_crosses() -> None:
 
 def _nearest(surface: TriSurface, place: np.ndarray) -> int:
     return int(np.argmin(np.linalg.norm(surface.vertices - place, axis=1)))
+
+
+@pytest.mark.parametrize("longest", [np.inf, 1.0, 0.1, 1e-9])
+def test_however_early_curves_are_cut_rectangles_are_left(longest: float) -> None:
+    made = layout_of("ring of eight")
+    chart, field = made.arrangement.curves.chart, made.integrated.field
+    nodes = singular_nodes(chart, field)
+    starts = starts_at(chart, nodes)
+    traces = trace(chart, nodes, starts, 1e-6 * chart.edge_length, 10.0)
+    crossed = crossings(chart, traces.chords)
+    stopped = stops(traces, crossed, longest)
+    # what joins two nodes is kept whole: the curve back along it has been left out
+    joining = (traces.ends == NODE) & stopped.kept
+    assert joining.any()
+    assert not stopped.limit_cycle[joining].any()
+    critical = np.ones(len(nodes), dtype=bool)
+    tmesh = arrange(made.surface, nodes, critical, traces, crossed, stopped).tmesh
+    assert tmesh.n_nodes - tmesh.n_arcs + tmesh.n_rectangles == 0
+    assert tmesh.area == pytest.approx(chart.area, rel=1e-8)
