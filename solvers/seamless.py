@@ -25,7 +25,7 @@ STIFFER, ROUNDS, PATIENCE = 5.0, 6, 2
 """Growth of the weight of triangles turned over, how often it grows at most, and how often in vain.
 """
 
-FEW = 20
+FEW = 5
 """Triangles that joining may turn over before they are mended."""
 
 HOPELESS = 0.05

@@ -16,7 +16,7 @@ from solvers.triangulation import IntArray
 LITTLE = np.radians(2)
 """By how much the map may turn crosses that were turned before it was made."""
 
-MOST = 100
+MOST = 50
 """Separatrices that are joined at once."""
 
 SPOILT = 0.03
