@@ -39,19 +39,22 @@ class Files:
     def __init__(self, window: MainWindow) -> None:
         self._window = window
         self._target = ""
+        self._asked = ""
 
     def open(self, target: str) -> None:
         """Open a file, a gallery case or a built-in surface."""
-        self._target = target
+        self._asked = target
         self._window.workspace.open(target)
 
     def opened(self, document: Document) -> None:
-        """Remember what was opened, when it is a file."""
+        """Remember what was opened; among the recent ones, when it is a file."""
+        self._target = self._asked
         if Path(self._target).is_file():
             remember(self._target)
 
     def reopen(self, component: str | None = None, repair: bool = False) -> None:
         """Open the same again with other choices."""
+        self._asked = self._target
         self._window.workspace.open(self._target, component, repair)
 
     def ask_open(self) -> None:

@@ -14,6 +14,7 @@ from crossview.session.commands import ChooseMethod, Command
 from crossview.session.meshes import Meshes, lay_out, make_quads, trace
 from solvers.crossfield import CrossField
 from solvers.layouts.errors import LayoutError
+from solvers.surface import TriSurface
 
 KEPT = 4
 """Fields whose meshes are kept: one for each method."""
@@ -48,7 +49,7 @@ class Meshing:
         self._next: MeshOptions | None = None
         self._told: LayoutError | None = None
         solving.pursue_also(self.pursue)
-        store.changed.connect(self._forget_next)
+        store.changed.connect(self._forget)
 
     def make(self, options: MeshOptions) -> None:
         """Make the quads of the present solution; one that is still to come is waited for."""
@@ -112,7 +113,8 @@ class Meshing:
         """Say why there is no layout, where, and what may be done."""
         self._told = trouble
         pointed = Elements(faces=trouble.faces) if len(trouble.faces) else None
-        self._store.fail(trouble, "mesh", self._offers(trouble, options), pointed)
+        cause = "layout" if options is None else "mesh"
+        self._store.fail(trouble, cause, self._offers(trouble, options), pointed)
 
     def _failed(self, error: Exception) -> None:
         self._store.fail(error, "mesh")
@@ -142,10 +144,16 @@ class Meshing:
     def _solve_anisotropic(self) -> None:
         self._do(ChooseMethod("anisotropic"))
 
-    def _forget_next(self, old: WindowState, new: WindowState) -> None:
-        """Wait no longer for a solution that fails to come."""
+    def _forget(self, old: WindowState, new: WindowState) -> None:
+        """Wait no longer for a solution that fails to come, nor be silent on what is new."""
+        hidden = old.layers["layout"].visible and not new.layers["layout"].visible
+        if hidden or new.field is not old.field:
+            self._told = None
         said = new.message
-        if said is None or said is old.message:
-            return
-        if said.severity == "error" or said.text.startswith("Stopped"):
+        failed = said is not None and (said.severity == "error" or said.text.startswith("Stopped"))
+        if (failed and said is not old.message) or _surface(new) is not _surface(old):
             self._next = None
+
+
+def _surface(state: WindowState) -> TriSurface | None:
+    return None if state.document is None else state.document.surface

@@ -48,6 +48,7 @@ class Moves:
         state = self._store.state
         if state.document is not None:
             alignment = "curvature" if state.along_curvature else "smoothness"
+            self._store.set(selected=None, partner=None)  # on their way there are none
             self._run(partial(place_natural, state.document, method, alignment))
 
     def _run(self, job: Callable[[], Generator[Progress, None, Command]]) -> None:

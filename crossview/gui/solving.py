@@ -58,6 +58,7 @@ class Solving:
         """Run any job in place of what runs now; `stopped` is called if the user stops it."""
         self._still.stop()
         self._when_stopped = stopped or self._say_stopped
+        self._store.clear_message("stop")
         self._store.set(iterate=None, moving=None)
         self._background.submit(job, done, fail)
 
@@ -66,6 +67,7 @@ class Solving:
         self._background.forget()
         self._store.set(iterate=None)
         self._store.clear_message("solve")
+        self._store.clear_message("stop")
         document, base = self._store.state.document, self._store.state.base
         if document is None:
             return
@@ -84,7 +86,9 @@ class Solving:
 
     def resume(self) -> None:
         """Go on with what another job has displaced."""
-        if not self._store.state.solved:
+        if self._store.state.solved:
+            self.pursue()
+        else:
             self.follow()
 
     def try_out(self, edit: LiveEdit) -> None:
@@ -204,4 +208,4 @@ class Solving:
         self.run(partial(self._solver.keep, iterate.step), show, self._failed)
 
     def _say_stopped(self) -> None:
-        self._store.set(message=Message("Stopped; what was there is kept", "solve", "info"))
+        self._store.set(message=Message("Stopped; what was there is kept", "stop", "info"))

@@ -159,6 +159,8 @@ class Workspace(Store):
     def set_layer(self, name: str, **changes: Any) -> None:
         """Change settings of one layer."""
         self.set(layers=self.state.with_layer(name, **changes).layers)
+        if not self.state.layers["layout"].visible:
+            self.clear_message("layout")
         self.solving.pursue()
 
     def _locate(self, target: str, error: SurfaceError) -> None:
@@ -179,7 +181,8 @@ class Workspace(Store):
 
     def _open_document(self, document: Document) -> None:
         self._history.open(document)
-        self.clear_message("open")
+        for cause in ("open", "save", "export"):
+            self.clear_message(cause)
         self._document_changed()
         self.opened.emit(document)
 
@@ -216,5 +219,6 @@ class Workspace(Store):
             changes |= {"solution": None, "field": None, "start": None, "cut_graph": None}
         self.clear_message("edit")
         self.clear_message("mesh")
+        self.clear_message("layout")
         self.set(**changes)
         self.solving.follow()

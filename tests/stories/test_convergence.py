@@ -236,6 +236,17 @@ def test_stop_leaves_the_document_as_it_was(hand: Hand, isotropic_case: Cases, w
     assert hand.state.field is field
 
 
+def test_natural_singularities_with_one_selected(
+    hand: Hand, capsys: pytest.CaptureFixture[str]
+) -> None:
+    hand.open("disk-4")
+    hand.window.workspace.select(3)
+    hand.trigger("natural-mbo")
+    hand.wait(lambda: hand.state.solved)
+    assert hand.state.undo_name == "natural singularities (MBO)"
+    assert "Error" not in capsys.readouterr().err  # of those that Qt only prints
+
+
 def test_natural_singularities_of_a_disk(hand: Hand) -> None:
     hand.open("disk-4")
     before = hand.state.document

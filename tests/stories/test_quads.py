@@ -231,6 +231,46 @@ def test_the_layout_layer_says_why_there_is_none(hand: Hand, isotropic_plate: st
     assert hand.state.made.quads is None  # only the layout was asked for
 
 
+def test_the_layout_layer_says_why_each_time_it_is_shown(hand: Hand, isotropic_plate: str) -> None:
+    hand.open(isotropic_plate)
+    hand.window.layers_panel.toggle("layout")
+    hand.wait(lambda: hand.state.message is not None)
+    said = hand.state.message.text
+    # hidden, it has nothing to say; shown again, it has
+    hand.window.layers_panel.toggle("layout")
+    hand.wait()
+    assert hand.state.message is None
+    hand.window.layers_panel.toggle("layout")
+    hand.wait()
+    assert hand.state.message is not None
+    assert hand.state.message.text == said
+    # nor does a method in between that has a layout silence it
+    hand.trigger("method-anisotropic")
+    hand.wait(lambda: hand.state.made.layout is not None)
+    assert hand.state.message is None
+    hand.trigger("method-isotropic")
+    hand.wait(lambda: hand.state.solved)
+    assert hand.state.message is not None
+    assert hand.state.message.text == said
+    # what was asked for by hand stays as it was when the layer is hidden
+    hand.trigger("mesh")
+    hand.wait()
+    hand.window.layers_panel.toggle("layout")
+    hand.wait()
+    assert hand.state.message is not None
+
+
+def test_quads_wished_for_one_surface_are_not_made_of_the_next(hand: Hand) -> None:
+    hand.window.files.open("closed-H")
+    while hand.state.document is None:
+        QApplication.processEvents()
+    assert not hand.state.solved
+    hand.window.actions_table.by_name["mesh"].trigger()  # waits for the field
+    hand.open("disk-4")
+    hand.wait(lambda: hand.state.made.layout is not None)
+    assert hand.state.made.quads is None
+
+
 def test_stop_while_quads_are_made(hand: Hand) -> None:
     hand.open("disk-4")
     hand.window.quads_panel.count_box.setValue(100_000)
@@ -252,3 +292,8 @@ def test_stop_while_quads_are_made(hand: Hand) -> None:
     assert hand.state.made.quads is None
     QApplication.processEvents()
     assert hand.state.solved
+    # what follows is not stopped, and the message goes
+    hand.window.quads_panel.count_box.setValue(500)
+    hand.trigger("mesh")
+    hand.wait(lambda: hand.state.made.quads is not None)
+    assert hand.state.message is None

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PySide6.QtCore import QPointF, Qt
+from PySide6.QtWidgets import QApplication
 
 from crossview.scene.colors import PROBLEM, valence_color
 from tests.windowing import Hand
@@ -42,6 +43,35 @@ def test_several_pieces_the_largest_is_one_click_away(hand: Hand, tmp_path: Path
     assert hand.state.document.surface.n_faces == 2
     assert not bar.isVisible()  # the cause is gone
     assert hand.window.surface_panel.notes.isVisible()
+
+
+def test_a_file_that_did_not_open_is_not_the_one_opened_again(hand: Hand, tmp_path: Path) -> None:
+    hand.open("disk-4")
+    hand.open(str(tmp_path / "missing.obj"))
+    assert hand.state.message.text.startswith("no such file")
+    hand.trigger("use-largest")
+    assert hand.state.message is None
+    assert hand.state.document.name == "disk-4"
+
+
+def test_a_file_that_did_not_open_keeps_nothing_from_being_made(hand: Hand) -> None:
+    hand.window.files.open("disk-4")
+    while not hand.state.solved:
+        QApplication.processEvents()
+    assert hand.state.made.layout is None
+    hand.open("missing.obj")
+    hand.wait(lambda: hand.state.made.layout is not None)
+    assert hand.state.message is not None
+
+
+def test_what_could_not_be_written_is_forgotten_with_its_surface(
+    hand: Hand, tmp_path: Path
+) -> None:
+    hand.open("disk-4")
+    hand.window.files.export(tmp_path / "figure.docx")
+    assert ".docx" in hand.state.message.text
+    hand.open("square")
+    assert hand.state.message is None
 
 
 def test_bad_triangles_can_be_repaired(hand: Hand, tmp_path: Path) -> None:
