@@ -174,10 +174,12 @@ def mesh(layout: QuadLayout, options: MeshOptions) -> Generator[Progress, None, 
     Raises
     ------
     CrossviewError
-        The options do not fit the surface, or no numbers of quads were found in time.
+        The options do not fit the surface, a singularity has valence 1, or no numbers of quads were
+        found in time.
     """
     surface, tmesh = layout.surface, layout.tmesh
     number = options.number_on(surface)
+    _require_closing(layout.integrated.field)
     yield Progress("choosing numbers of quads", 0.0)
     if options.edge_length is None:
         chosen = quantize_to(tmesh, number, collapse=options.collapse)
@@ -233,12 +235,24 @@ def _require_possible(solution: Solution) -> None:
         misses = "a boundary" if len(loops) == 1 else f"{len(loops)} boundaries"
         raise _misses(misses, solution.field.boundary_misalignment, REMEDY)
     if solution.verdict.status == "impossible":
-        raise LayoutError(f"no quads: {solution.verdict.reason.rstrip('.')}")
+        reason, mendable, _ = solution.verdict.reason.rstrip(".").partition("; ")
+        raise LayoutError(f"no quads: {reason}", "", REMEDY if mendable else "")
     off = np.abs(np.degrees(solution.field.feature_misalignment))
     missed = np.count_nonzero(off > solution.problem.options.tolerance_degrees)
     if missed:
         misses = "a feature curve" if missed == 1 else f"{missed} feature curves"
         raise _misses(misses, solution.field.feature_misalignment, ANISOTROPIC)
+
+
+def _require_closing(field: CrossField) -> None:
+    """Refuse a valence 1: both sides of its quad would be one edge."""
+    lone = [i for i, s in enumerate(field.singularities, start=1) if s.valence == 1]
+    if lone:
+        raise CrossviewError(
+            "no quad closes around a valence 1",
+            f"singularity {', '.join(map(str, lone))}",
+            "take valence 2 or more there, such as a 2 and a 3 (split)",
+        )
 
 
 def _misses(what: str, angles: FloatArray, remedy: str) -> LayoutError:

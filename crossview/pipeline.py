@@ -24,7 +24,7 @@ from solvers.refinement import refine_at
 from solvers.singularities import require_budget
 from solvers.triangulation import FloatArray
 
-__all__ = ["Pipeline", "Solution", "solve_case"]
+__all__ = ["Pipeline", "Solution", "of_component", "solve_case"]
 
 T = TypeVar("T")
 Solving = Generator[Progress, None, Solution]
@@ -141,6 +141,17 @@ def _integrated(
     return _solution(stage, problem, integrated, seconds, growth)
 
 
+@contextmanager
+def of_component(number: int | None) -> Iterator[None]:
+    """Name the component in what goes wrong; None: there is only one."""
+    try:
+        yield
+    except CrossviewError as error:
+        if number is not None:
+            error.where = f"component {number}" + (f", {error.where}" if error.where else "")
+        raise
+
+
 def solve_case(case: Case) -> Generator[Progress, None, tuple[Solution, ...]]:
     """Read a case and solve it.
 
@@ -154,8 +165,9 @@ def solve_case(case: Case) -> Generator[Progress, None, tuple[Solution, ...]]:
     with _timed(seconds, "read"):
         problems = problems_of(case)
     solutions = []
-    for problem in problems:
-        solution = yield from Pipeline().solve(problem)
+    for number, problem in enumerate(problems):
+        with of_component(number if len(problems) > 1 else None):
+            solution = yield from Pipeline().solve(problem)
         solutions.append(replace(solution, seconds={**seconds, **solution.seconds}))
     return tuple(solutions)
 

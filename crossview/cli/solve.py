@@ -9,7 +9,7 @@ from crossview.case import Case
 from crossview.cli.options import Flag, Json, Output, chosen_case, mesh_options
 from crossview.cli.terminal import say, say_json, watch
 from crossview.meshing import MeshOptions, quads_of
-from crossview.pipeline import Solution, solve_case
+from crossview.pipeline import Solution, of_component, solve_case
 from crossview.staging import staged
 from solvers.errors import CrossviewError
 from solvers.progress import Progress
@@ -108,11 +108,13 @@ def _solved_into(
     from crossview.export.report import write_files
 
     results: Results = []
-    for solution in (yield from solve_case(case)):
+    solutions = yield from solve_case(case)
+    for number, solution in enumerate(solutions):
         if wanted is None:
             results.append((solution, None))
         else:
-            results.append((yield from quads_of(solution, wanted)))
+            with of_component(number if len(solutions) > 1 else None):
+                results.append((yield from quads_of(solution, wanted)))
     yield Progress("writing", 0.9)
     for number, (solution, made) in enumerate(results):
         one_of_many = case.options.component == "all"

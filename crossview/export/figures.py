@@ -25,6 +25,7 @@ from crossview.scene.field import feature_lines
 from crossview.scene.meshes import curves_of, patches_of, quads_of, t_junctions_of
 from crossview.scene.view import Background
 from crossview.staging import staged
+from solvers.errors import CrossviewError
 from solvers.quads.quadmesh import QuadMesh
 
 KINDS = (".png", ".svg", ".pdf")
@@ -73,7 +74,8 @@ def render(
     Raises
     ------
     CrossviewError
-        Unknown layer, camera or file suffix; a size that cannot be drawn; no drawing here.
+        Unknown layer, or the guide; unknown camera or file suffix; a size that cannot be drawn; no
+        drawing here.
     """
     check(path, layers=layers, size=size, scale=scale, camera=camera)
     chosen: Mapping[str, LayerSettings] = layers_named(layers) if layers else default_layers()
@@ -121,6 +123,10 @@ def check(
     check_size(size, scale)
     read_camera(camera)
     layers_named(layers or ())
+    if "guide" in (layers or ()):
+        raise CrossviewError(
+            "the guide shows where one singularity may be dragged", "layers", "see it in the window"
+        )
     ensure_rendering()
 
 

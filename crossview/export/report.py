@@ -24,6 +24,7 @@ from crossview.meshing import misaligned_boundaries, separatrices
 from crossview.pipeline import Solution
 from crossview.staging import staged
 from solvers.quads.quadmesh import QuadMesh
+from solvers.validation import counted
 
 REPORT = "report.json"
 FORMATS = ("vtk", "obj")
@@ -89,14 +90,27 @@ def report(solution: Solution, quads: QuadMesh | None = None) -> dict[str, Any]:
 def quads_summary(solution: Solution, quads: QuadMesh) -> str:
     """Counts and quality of the quads and their layout, in one line."""
     layout, quality = _layout(solution), quads.scaled_jacobian
-    irregular, inverted = sum(quads.irregular.values()), np.count_nonzero(quality <= 0)
-    warning = f"; {inverted} are turned over: try more quads" if inverted else ""
-    patches = f"{layout['patches']} patches, "
+    irregular, warning = sum(quads.irregular.values()), _inverted(quads)
+    patches = f"{layout['patches']} {'patch' if layout['patches'] == 1 else 'patches'}, "
     patches += "conforming" if layout["conforming"] else f"{layout['t_junctions']} T-junctions"
     return (
-        f"{quads.n_quads} quads in {patches}; {irregular} irregular vertices, "
+        f"{quads.n_quads} quads in {patches}; {counted(irregular, 'irregular vertex')}, "
         f"scaled Jacobian at least {quality.min():.2f}, mean {quality.mean():.3f}{warning}"
     )
+
+
+def _inverted(quads: QuadMesh) -> str:
+    """How many quads are not convex, and what helps; nothing does where two share 360 degrees."""
+    inverted = quads.scaled_jacobian <= 0
+    halves = (quads.valence == 2) & ~quads.on_boundary
+    wide = inverted & halves[quads.quads].any(axis=1)
+    said, others = "", np.count_nonzero(inverted & ~wide)
+    if others:
+        said += f"; {others} are turned over: try more quads"
+    if wide.any():
+        number = np.count_nonzero(wide)
+        said += f"; {number} have a corner of 180 degrees or more, as those around a valence 2 do"
+    return said
 
 
 def summary(solution: Solution) -> str:

@@ -120,6 +120,7 @@ def test_what_the_surface_hides_is_no_vector_either(tmp_path):
     [
         ("a.jpeg", {}, r"unknown kind of figure.*\.png, \.svg, \.pdf"),
         ("a.png", {"layers": ["H", "sparkles"]}, r'no layer "sparkles".*crosses'),
+        ("a.png", {"layers": ["guide"]}, "the guide shows where one singularity may be dragged"),
         ("a.png", {"camera": "sideways"}, r'no camera "sideways".*iso'),
         ("a.png", {"size": (4, 3)}, "cannot draw 4 x 3 pixels"),
         ("a.png", {"size": (4000, 3000), "scale": 10}, "cannot draw 40000 x 30000 pixels"),

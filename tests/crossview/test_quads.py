@@ -204,6 +204,30 @@ def test_an_isotropic_field_that_misses_a_handle_is_refused(crossview, tmp_path,
     refused(ran, tmp_path, "holonomy defect", "anisotropic")
 
 
+def test_no_quads_are_tried_around_a_valence_1(crossview, tmp_path, case_file):
+    path = case_file({"builtin": "disk", "edge_length": 0.1}, [((0, 0, 0), 1), ((0.5, 0, 0), 3)])
+    ran = crossview("solve", path, "-o", tmp_path / "out", "--quads")
+    refused(ran, tmp_path, "no quad closes around a valence 1 (singularity 1)", "valence 2 or more")
+
+
+def test_quads_at_a_valence_2_are_flat_not_too_few(crossview, tmp_path, case_file):
+    two = [((-0.3, 0, 0), 2), ((0.4, 0, 0), 2)]
+    path = case_file({"builtin": "disk", "edge_length": 0.1}, two)
+    ran = crossview("solve", path, "-o", tmp_path / "out", "--quads", "--target-quads", 200)
+    assert ran.status == 0
+    assert "2 have a corner of 180 degrees or more, as those around a valence 2 do" in ran.out
+    assert "try more quads" not in ran.out
+
+
+def test_of_all_components_the_one_that_misses_its_budget_is_named(crossview, tmp_path):
+    square, pentagon = BUILTIN["square"](n=16), BUILTIN["planar"](edge_length=0.3)
+    points = np.concatenate([square.vertices, pentagon.vertices + [5, 0, 0]])
+    faces = np.concatenate([square.faces, pentagon.faces + square.n_vertices])
+    meshio.write_points_cells(tmp_path / "two.obj", points, [("triangle", faces)])
+    ran = crossview("solve", tmp_path / "two.obj", "-o", tmp_path / "out", "--component", "all")
+    refused(ran, tmp_path, "3 of 4 (component 1)")
+
+
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
