@@ -117,7 +117,7 @@ def figure_view(
 
 def _preview(state: WindowState, surface: TriSurface) -> Marker | None:
     trial = state.trial
-    if trial is None or trial.drag:
+    if trial is None or trial.drag or trial.surface is not surface:
         return None
     return Marker(_triple(surface.position(trial.placed)), trial.singularities[-1].valence)
 

@@ -124,6 +124,8 @@ class Trial:
         Which of them it is about.
     placed : SurfacePoint
         The same one on the surface that is shown.
+    surface : TriSurface
+        That surface; another may have come into its place.
     edit : LiveEdit or None
         The same on the kept factor, where there is one.
     drag : bool
@@ -133,6 +135,7 @@ class Trial:
     singularities: tuple[Singularity, ...]
     index: int
     placed: SurfacePoint
+    surface: TriSurface
     edit: LiveEdit | None
     drag: bool
 

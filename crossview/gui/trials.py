@@ -36,8 +36,8 @@ class Trials:
     def preview(self, point: SurfacePoint | None) -> None:
         """Show what a click of the add tool at `point` of the shown surface would do."""
         state = self._store.state
-        document, valence = state.document, state.tool
-        if point is None or document is None or valence is None:
+        document, valence, surface = state.document, state.tool, state.shown_surface
+        if point is None or document is None or valence is None or surface is None:
             self._store.set(trial=None)
             return
         added = Singularity(state.lifted(point), valence)
@@ -45,14 +45,14 @@ class Trials:
         if edit is not None:
             edit = edit.added(Singularity(point, valence))
         singularities = (*document.singularities, added)
-        trial = Trial(singularities, len(singularities) - 1, point, edit, drag=False)
+        trial = Trial(singularities, len(singularities) - 1, point, surface, edit, drag=False)
         self._store.set(trial=trial)
 
     def start_drag(self, index: int) -> bool:
         """Take hold of singularity `index`; False when it is locked."""
         state = self._store.state
-        document = state.document
-        if document is None or document.singularities[index].locked:
+        document, surface = state.document, state.shown_surface
+        if document is None or surface is None or document.singularities[index].locked:
             return False
         point = document.singularities[index].point
         placed = point if state.base is None else state.base.locate(point)
@@ -60,7 +60,7 @@ class Trials:
         self._guidance = None
         if edit is not None and document.budget.satisfied:
             self._guidance = Guidance(edit, index)
-        trial = Trial(document.singularities, index, placed, edit, drag=True)
+        trial = Trial(document.singularities, index, placed, surface, edit, drag=True)
         self._store.set(trial=trial, selected=index)
         return True
 

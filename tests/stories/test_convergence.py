@@ -247,6 +247,20 @@ def test_natural_singularities_with_one_selected(
     assert "Error" not in capsys.readouterr().err  # of those that Qt only prints
 
 
+def test_natural_singularities_with_one_in_hand(
+    hand: Hand, capsys: pytest.CaptureFixture[str]
+) -> None:
+    hand.open("disk-4")
+    hand.key(Qt.Key.Key_3)
+    hand.move(hand.place((-0.5613, 0.0765, 0.0)))
+    hand.wait()
+    # on a triangle that only the refined surface has: natural ones come from the other
+    assert hand.state.trial.placed.face >= hand.state.document.surface.n_faces
+    hand.window.actions_table.by_name["natural-mbo"].trigger()
+    hand.wait(lambda: hand.state.undo_name == "natural singularities (MBO)" and hand.state.solved)
+    assert "Error" not in capsys.readouterr().err
+
+
 def test_natural_singularities_of_a_disk(hand: Hand) -> None:
     hand.open("disk-4")
     before = hand.state.document
