@@ -231,6 +231,19 @@ def test_the_layout_layer_says_why_there_is_none(hand: Hand, isotropic_plate: st
     assert hand.state.made.quads is None  # only the layout was asked for
 
 
+def test_loops_that_do_not_close_on_a_closed_surface_are_mended_by_one_click(hand: Hand) -> None:
+    hand.open("genus")
+    hand.trigger("distribute")
+    hand.wait(lambda: hand.state.solved)
+    assert not hand.state.valid
+    hand.trigger("mesh")
+    hand.wait(lambda: hand.state.message is not None)
+    assert offer(hand, "Solve anisotropic").isEnabled()
+    offer(hand, "Make valid").click()
+    hand.wait(lambda: hand.state.made.quads is not None)
+    assert hand.state.message is None
+
+
 def test_the_layout_layer_says_why_each_time_it_is_shown(hand: Hand, isotropic_plate: str) -> None:
     hand.open(isotropic_plate)
     hand.window.layers_panel.toggle("layout")
