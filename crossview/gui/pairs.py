@@ -47,7 +47,7 @@ class Pairs:
             return
         self._store.clear_message("edit")
         job = partial(add_pair_somewhere, state.document)
-        self._solving.run(job, self._do, lambda error: self._store.fail(error, "edit"))
+        self._solving.run(job, self._do, self._failed)
 
     def merge(self) -> None:
         """Make one of the two selected singularities."""
@@ -72,11 +72,11 @@ class Pairs:
         document = self._store.state.document
         if document is not None:
             self._store.clear_message("edit")
-            self._solving.run(
-                partial(distribute, document),
-                self._do,
-                lambda error: self._store.fail(error, "edit"),
-            )
+            self._solving.run(partial(distribute, document), self._do, self._failed)
+
+    def _failed(self, error: Exception) -> None:
+        self._store.fail(error, "edit")
+        self._solving.resume()
 
     def _at_once(self, make: Callable[[Document], Command]) -> None:
         document = self._store.state.document

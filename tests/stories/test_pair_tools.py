@@ -1,10 +1,12 @@
 """Pairs, merging, splitting, mirroring, completing, and the offers of Make valid."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
 from PySide6.QtCore import QPointF, Qt
+from PySide6.QtWidgets import QApplication
 
 from crossview.scene.colors import valence_color
 from tests.windowing import Hand
@@ -172,3 +174,15 @@ def test_the_scene_menu_adds_a_pair_where_it_was_asked_for(hand: Hand, place) ->
     np.testing.assert_allclose(places(hand)[4:].mean(axis=0), [*place, 0.0], atol=0.01)
     for menu in hand.window.findChildren(type(hand.window.menus.menu("File"))):
         menu.close()
+
+
+def test_a_pair_without_room_keeps_no_field_from_being_solved(hand: Hand, tmp_path: Path) -> None:
+    path = tmp_path / "two.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n")
+    hand.window.files.open(str(path))
+    while hand.state.document is None:
+        QApplication.processEvents()
+    assert not hand.state.solved
+    hand.trigger("add-pair")
+    assert hand.state.message.text.startswith("there is no room")
+    assert hand.state.solved
