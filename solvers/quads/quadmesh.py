@@ -14,6 +14,9 @@ from solvers.quads.projection import Projection
 from solvers.surface import TriSurface
 from solvers.triangulation import BoolArray, FloatArray, IntArray
 
+ON_EDGE = 1e-9
+"""Weight of a corner below which a place is on the edge across."""
+
 
 @dataclass(frozen=True, eq=False)
 class QuadMesh:
@@ -94,7 +97,7 @@ class QuadMesh:
     @cached_property
     def scaled_jacobian(self) -> FloatArray:
         """(q,) smallest sine of a quad's corners about its mean normal; 1 for rectangles."""
-        outward = self.surface.face_normals[self.faces[self.quads]].sum(axis=1)
+        outward = normals_at(self.surface, self.faces, self.barycentric)[self.quads].sum(axis=1)
         return scaled_jacobian(self.vertices[self.quads], outward)
 
     @cached_property
@@ -196,6 +199,19 @@ class QuadMesh:
             shape=(len(ends), len(ends)),
         )
         return int(connected_components(graph, directed=False)[0])
+
+
+def normals_at(surface: TriSurface, faces: IntArray, weights: FloatArray) -> FloatArray:
+    """Return the (..., 3) normals at places on a surface.
+
+    Those of the triangles (...,) where the weights (..., 3) are inside; on edges, where either of
+    two triangles may be named, those interpolated: across a sharp edge the other may look away.
+    """
+    normals = surface.face_normals[faces]
+    on_edge = weights.min(axis=-1) < ON_EDGE
+    ends = surface.vertex_normals[surface.faces[faces[on_edge]]]
+    normals[on_edge] = (weights[on_edge][:, :, None] * ends).sum(axis=1)
+    return normals
 
 
 def scaled_jacobian(corners: FloatArray, outward: FloatArray) -> FloatArray:

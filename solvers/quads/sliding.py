@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from solvers.quads.projection import Projection
-from solvers.quads.quadmesh import QuadMesh, scaled_jacobian
+from solvers.quads.quadmesh import QuadMesh, normals_at, scaled_jacobian
 from solvers.quads.rails import Rail
 from solvers.triangulation import FloatArray, IntArray
 
@@ -76,8 +76,8 @@ class Sliding:
 
     def quality(self, places: Places, quads: IntArray) -> FloatArray:
         """Return the scaled Jacobians of quads (..., 4) given by their vertices."""
-        outward = self.mesh.surface.face_normals[places.faces[quads]].sum(axis=-2)
-        return scaled_jacobian(places.vertices[quads], outward)
+        normals = normals_at(self.mesh.surface, places.faces, places.weights)
+        return scaled_jacobian(places.vertices[quads], normals[quads].sum(axis=-2))
 
     def snapped(self, places: Places) -> tuple[Places, IntArray]:
         """Put the nearest vertex of a rail on each of its corners that has none.

@@ -14,7 +14,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from solvers.quads.quadmesh import QuadMesh
+from solvers.quads.quadmesh import QuadMesh, normals_at
 from solvers.quads.rails import Rail, boundary_rails
 from solvers.quads.sliding import Places, Sliding
 from solvers.quads.untangling import POOR, improve_worst
@@ -141,7 +141,7 @@ def _round(
 ) -> tuple[Places, FloatArray]:
     """Return places and qualities after two steps that leave no quad below the worst before."""
     mesh, quads = sliding.mesh, sliding.mesh.quads
-    outward = mesh.surface.face_normals[places.faces[quads]].sum(axis=1)
+    outward = normals_at(mesh.surface, places.faces, places.weights)[quads].sum(axis=1)
     asked = rectangles(places.vertices[quads], outward, sides).reshape(-1, 3)
     weight = np.repeat(1 / sides.prod(axis=0), 4)
     total = [np.bincount(quads.reshape(-1), weight * x, mesh.n_vertices) for x in asked.T]

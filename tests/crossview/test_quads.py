@@ -158,6 +158,26 @@ def test_sharp_edges_are_edges_of_quads(crossview, tmp_path):
     assert mesh.area == pytest.approx(box.area)  # no corner is cut off
 
 
+def test_quads_along_very_sharp_edges_are_not_taken_for_turned_over(crossview, tmp_path, case_file):
+    corners = np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]) / sqrt(3)
+    triangles = corners[[[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]]
+    for _ in range(3):
+        a, b, c = np.moveaxis(triangles, 1, 0)
+        d, e, f = (a + b) / 2, (b + c) / 2, (c + a) / 2
+        quarters = [(a, d, f), (d, b, e), (f, e, c), (d, e, f)]
+        triangles = np.concatenate([np.stack(quarter, axis=1) for quarter in quarters])
+    faces = np.arange(len(triangles) * 3).reshape(-1, 3)
+    cells = [("triangle", faces)]
+    meshio.write_points_cells(tmp_path / "tetrahedron.stl", triangles.reshape(-1, 3), cells)
+    eight = [(tuple(place), 3) for place in [*corners, *-corners / 3]]
+    path = case_file("tetrahedron.stl", eight, method="anisotropic")
+    arguments = "--quads", "--target-quads", 800, "--features", 40, "--json"
+    ran = crossview("solve", path, "-o", tmp_path / "out", *arguments)
+    quads = json.loads(ran.out)["quads"]
+    assert quads["inverted"] == 0
+    assert quads["min_scaled_jacobian"] > 0.7
+
+
 def test_features_that_are_missed_are_told(crossview, tmp_path, case_file):
     diagonal = [[[-0.25, -0.25, 0], [0.25, 0.25, 0]]]
     path = case_file("square", features={"curves": diagonal})
