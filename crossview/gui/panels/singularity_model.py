@@ -39,7 +39,8 @@ class SingularityModel(QAbstractTableModel):
             self.beginResetModel()
         self._singularities = state.singularities
         flat = document is not None and bool(np.ptp(document.surface.vertices[:, 2]) == 0.0)
-        self._positions = [position(xyz[:2] if flat else xyz) for xyz in positions]
+        size = 0.0 if document is None else document.surface.diagonal
+        self._positions = [position(xyz[:2] if flat else xyz, size) for xyz in positions]
         if not same_rows:
             self.endResetModel()
         elif points:

@@ -40,10 +40,9 @@ def degrees(value: float) -> str:
     return signed(value, digits).lstrip("+") + "°"
 
 
-def position(coordinates: Sequence[float]) -> str:
-    """Return "0.31, −0.22, 1.00": three significant digits of the largest, aligned."""
-    largest = max((abs(x) for x in coordinates), default=0.0)
-    digits = 2 if largest < 100.0 and largest >= 0.1 else 0 if largest >= 100.0 else 4
+def position(coordinates: Sequence[float], size: float) -> str:
+    """Return "0.31, −0.22, 1.00": as exact as tells places on a surface of this size apart."""
+    digits = 4 if size < 0.1 else 2 if size < 100.0 else 0
     return ", ".join(signed(x, digits).lstrip("+") for x in coordinates)
 
 
