@@ -120,6 +120,7 @@ def quad_layout(integrated: IntegratedField) -> Generator[Progress, None, QuadLa
     _require_integrable(integrated)
     yield Progress("fitting the seamless map", 0.0)
     map_ = JoinedMap(integrated)
+    map_.require_upright()  # joining turns no more over
     yield Progress("tracing separatrices", 0.4)
     singular = singular_nodes(map_.chart, integrated.field)
     featured = feature_nodes(map_.chart, map_.features, {n.vertex for n in singular})
@@ -132,7 +133,6 @@ def quad_layout(integrated: IntegratedField) -> Generator[Progress, None, QuadLa
         if not map_.join(drawing.offsets()):
             break
         drawing = drawing.again()
-    map_.require_upright()
     yield Progress("cutting into rectangles", 0.8)
     drawing = drawing.again(LONGEST)
     while (seed := drawing.missing()) is not None:
