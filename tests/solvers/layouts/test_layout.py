@@ -193,3 +193,12 @@ def test_however_early_curves_are_cut_rectangles_are_left(longest: float) -> Non
     tmesh = arrange(made.surface, nodes, critical, traces, crossed, stopped).tmesh
     assert tmesh.n_nodes - tmesh.n_arcs + tmesh.n_rectangles == 0
     assert tmesh.area == pytest.approx(chart.area, rel=1e-8)
+
+
+def test_triangles_turned_over_are_named_with_the_singularities_near_them() -> None:
+    surface = BUILTIN["torus"](n=32)
+    places = surface.vertices[[0, surface.n_vertices // 2]]
+    field = integrated(surface, at_places(surface, places, [3, 5]))
+    with pytest.raises(LayoutError, match=r"turned over .* \(near singularity") as refused:
+        run(quad_layout(field))
+    np.testing.assert_array_equal(refused.value.faces, field.seamless_map.flipped)
