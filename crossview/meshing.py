@@ -17,7 +17,7 @@ from solvers.isotropic import IsotropicSolver
 from solvers.layouts.errors import LayoutError
 from solvers.layouts.layout import QuadLayout, quad_layout
 from solvers.layouts.separatrices import Separatrices, field_separatrices
-from solvers.progress import Progress, relayed, run
+from solvers.progress import Progress, between, run
 from solvers.quads.filling import fill
 from solvers.quads.quadmesh import QuadMesh
 from solvers.quads.quantization import quantize, quantize_to
@@ -221,9 +221,9 @@ def quads_of(
     """
     options.number_on(solution.surface)
     start = time.perf_counter()
-    made = yield from relayed(layout(solution), lambda step: _within(step, 0.0, 0.5))
+    made = yield from between(layout(solution), 0.0, 0.5)
     middle = time.perf_counter()
-    quads = yield from relayed(mesh(made, options), lambda step: _within(step, 0.5, 1.0))
+    quads = yield from between(mesh(made, options), 0.5, 1.0)
     seconds = {"layout": middle - start, "quads": time.perf_counter() - middle}
     return replace(solution, seconds={**solution.seconds, **seconds}), quads
 
@@ -275,7 +275,3 @@ def _integrated(solution: Solution) -> IntegratedField:
             solver = made.turned(-float(np.angle(np.exp(4j * found).mean())) / 4)
     aligned = aligned_field(solver, solution.singularities)
     return IntegratedField(aligned, aligned.start)
-
-
-def _within(step: Progress, start: float, end: float) -> Progress:
-    return replace(step, fraction=start + (end - start) * step.fraction)

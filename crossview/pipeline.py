@@ -19,7 +19,7 @@ from solvers.aligned import IntegratedField
 from solvers.crossfield import CrossField
 from solvers.errors import CrossviewError
 from solvers.integrable import FieldStep
-from solvers.progress import Progress, relayed
+from solvers.progress import Progress, between
 from solvers.refinement import refine_at
 from solvers.singularities import require_budget
 from solvers.triangulation import FloatArray
@@ -131,12 +131,12 @@ def _integrated(
         aligned = stage.aligned(problem)
     iteration = integrate(problem.method, aligned, options, sizes)
     with _timed(seconds, "solve"):
-        integrated = yield from _between(iteration, 0.3, 0.6 if options.verify else 0.9)
+        integrated = yield from between(iteration, 0.3, 0.6 if options.verify else 0.9)
     growth = None
     if options.verify and problem.method != "aligned":
         with _timed(seconds, "verify"):
             again = growth_when_refined(integrated, options, sizes)
-            growth = yield from _between(again, 0.6, 0.9)
+            growth = yield from between(again, 0.6, 0.9)
     yield Progress("judging", 0.9)
     return _solution(stage, problem, integrated, seconds, growth)
 
@@ -201,20 +201,6 @@ def _solution(
         verdict,
         growth,
     )
-
-
-def _between(
-    computation: Generator[Progress, None, T], start: float, end: float
-) -> Generator[Progress, None, T]:
-    """The same computation, its progress from `start` to `end` and never back."""
-    reached = start
-
-    def show(step: Progress) -> Progress:
-        nonlocal reached
-        reached = max(reached, start + (end - start) * step.fraction)
-        return replace(step, fraction=reached)
-
-    return relayed(computation, show)
 
 
 @contextmanager

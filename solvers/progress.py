@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Generator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeVar
 
 T = TypeVar("T")
@@ -69,3 +69,25 @@ def relayed(
         shown = show(step)
         if shown is not None:
             yield shown
+
+
+def between(
+    computation: Generator[Progress, None, T], start: float, end: float
+) -> Generator[Progress, None, T]:
+    """Run a computation as part of another, its progress from `start` to `end` and never back.
+
+    Parameters
+    ----------
+    computation : generator of Progress
+        What to run; its result is returned.
+    start, end : float
+        Fractions of the whole.
+    """
+    reached = start
+
+    def show(step: Progress) -> Progress:
+        nonlocal reached
+        reached = max(reached, start + (end - start) * step.fraction)
+        return replace(step, fraction=reached)
+
+    return relayed(computation, show)

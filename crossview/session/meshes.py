@@ -13,7 +13,7 @@ from solvers.crossfield import CrossField
 from solvers.layouts.errors import LayoutError
 from solvers.layouts.layout import QuadLayout
 from solvers.layouts.separatrices import Separatrices
-from solvers.progress import Progress, relayed
+from solvers.progress import Progress, between
 from solvers.quads.quadmesh import QuadMesh
 from solvers.triangulation import FloatArray
 
@@ -83,11 +83,11 @@ def make_quads(solution: Solution, made: Meshes, options: MeshOptions) -> Making
     share = 0.0
     if made.layout is None:
         share = LAID_OUT
-        laid_out = yield from relayed(lay_out(solution, made), lambda s: _within(s, 0.0, share))
+        laid_out = yield from between(lay_out(solution, made), 0.0, share)
     if laid_out.layout is None:
         return laid_out
     filling = mesh(laid_out.layout, options)
-    quads = yield from relayed(filling, lambda s: _within(s, share, 1.0))
+    quads = yield from between(filling, share, 1.0)
     _ = quads.scaled_jacobian, quads.irregular, quads.corners, quads.on_boundary
     return replace(laid_out, quads=quads, options=options)
 
@@ -97,7 +97,3 @@ def _traced(solution: Solution, made: Meshes) -> Meshes:
     _, places = misaligned_boundaries(solution)
     found = separatrices(solution)
     return replace(made, of=solution.field, separatrices=found, settled=True, misaligned=places)
-
-
-def _within(step: Progress, start: float, end: float) -> Progress:
-    return replace(step, fraction=start + (end - start) * step.fraction)
