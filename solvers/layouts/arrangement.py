@@ -39,8 +39,6 @@ class Arrangement:
         A curve through each node.
     node_at : (N,) float array
         Where along it.
-    node_vertex : (N,) int array
-        The vertex of the surface at a node that traces start from; -1 for others.
     t_junctions : (t,) int array
         Nodes where a limit cycle was cut.
     """
@@ -52,7 +50,6 @@ class Arrangement:
     arc_span: FloatArray
     node_curve: IntArray
     node_at: FloatArray
-    node_vertex: IntArray
     t_junctions: IntArray
 
 
@@ -230,7 +227,6 @@ def _finished(
         offsets,
         halfarcs,
     )
-    vertex = np.concatenate([[node.vertex for node in nodes], np.full(n - len(nodes), -1)])
     return Arrangement(
         tmesh,
         curves,
@@ -239,6 +235,5 @@ def _finished(
         span,
         np.array(build.curve, dtype=np.int64),
         np.array(build.at),
-        vertex.astype(np.int64),
         t_junctions,
     )

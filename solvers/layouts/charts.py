@@ -7,6 +7,8 @@ from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import dijkstra
 
 from solvers.crossfield import CrossField
 from solvers.triangulation import IntArray, IntrinsicTriangulation, previous_halfedge
@@ -64,6 +66,17 @@ class Chart:
     def edge_length(self) -> float:
         """Length of a typical edge: of equilateral triangles of the same number and area."""
         return float(np.sqrt(4 / np.sqrt(3) * self.area / len(self.images)))
+
+    @cached_property
+    def diameter(self) -> float:
+        """About the largest distance between vertices, along edges."""
+        t = self.triangulation
+        h = t.edge_halfedges
+        length = np.abs(self.images.reshape(-1)[h])
+        shape = (t.n_vertices, t.n_vertices)
+        graph = coo_array((length, (t.tail[h], t.head[h])), shape=shape).tocsr()
+        far = dijkstra(graph, directed=False, indices=0).argmax()
+        return float(dijkstra(graph, directed=False, indices=far).max())
 
     def ring(self, vertex: int) -> IntArray:
         """Return the halfedges that leave a vertex, counter-clockwise from the boundary."""

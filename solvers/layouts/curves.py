@@ -48,19 +48,34 @@ def with_loops(traces: Traces, loops: Sequence[IntArray]) -> Curves:
     chart, chords = traces.chart, [traces.chords]
     offsets = list(traces.offsets)
     for number, loop in enumerate(loops, start=len(traces.ends)):
-        z = chart.images.reshape(-1)[loop]
-        length = np.concatenate([[0.0], np.cumsum(np.abs(z))])
-        zero, corner = np.zeros(len(loop)), np.ones(len(loop), dtype=bool)
-        axis = np.rint(np.angle(z) / QUARTER).astype(np.int64) % 4
-        curve = np.full(len(loop), number)
-        sides = loop % 3, next_halfedge(loop) % 3
-        ends = length[:-1], length[1:]
-        chords.append(
-            Chords(curve, loop // 3, axis, sides[0], zero, corner, sides[1], zero, corner, *ends)
-        )
+        chords.append(along_edges(chart, loop, number))
         offsets.append(offsets[-1] + len(loop))
-    columns = zip(*(vars(c).values() for c in chords), strict=True)
-    return Curves(chart, Chords(*(np.concatenate(c) for c in columns)), np.array(offsets))
+    return Curves(chart, Chords.joined(chords), np.array(offsets))
+
+
+def along_edges(
+    chart: Chart, halfedges: IntArray, curve: int, *, backwards: bool = False
+) -> Chords:
+    """Return the chords of a curve along halfedges that follow each other, or against them."""
+    z = chart.images.reshape(-1)[halfedges]
+    length = np.concatenate([[0.0], np.cumsum(np.abs(z))])
+    axis = np.rint(np.angle(z) / QUARTER).astype(np.int64) + 2 * backwards
+    tail, head = halfedges % 3, next_halfedge(halfedges) % 3
+    start, end = (head, tail) if backwards else (tail, head)
+    zero, corner = np.zeros(len(z)), np.ones(len(z), dtype=bool)
+    return Chords(
+        np.full(len(z), curve),
+        halfedges // 3,
+        axis % 4,
+        start,
+        zero,
+        corner,
+        end,
+        zero,
+        corner,
+        length[:-1],
+        length[1:],
+    )
 
 
 def boundary_halfedges(surface: TriSurface) -> tuple[IntArray, ...]:

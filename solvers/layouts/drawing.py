@@ -6,11 +6,9 @@ from collections.abc import Sequence
 from functools import cached_property
 
 import numpy as np
-from scipy.sparse import coo_array, csc_array
-from scipy.sparse.csgraph import dijkstra
+from scipy.sparse import csc_array
 
 from solvers.layouts.arrangement import Arrangement, arrange
-from solvers.layouts.charts import Chart
 from solvers.layouts.connections import conditions, passing
 from solvers.layouts.crossings import crossings
 from solvers.layouts.curves import bare_loops, boundary_halfedges
@@ -58,9 +56,8 @@ class Drawing:
         self._nodes = nodes = [*singular, *featured, *seeds]
         self._longest = longest
         chart = map_.chart
-        self._diameter = _diameter(chart)
         starts = starts_at(chart, nodes)
-        length = longest * self._diameter
+        length = longest * chart.diameter
         self.traces = trace(chart, nodes, starts, EXACT * chart.edge_length, length)
         self.crossings = crossings(chart, self.traces.chords)
 
@@ -69,7 +66,7 @@ class Drawing:
         """How far the traces are kept: as far as the layout does not become too fine."""
         longest = LONGEST
         while True:
-            stopped = stops(self.traces, self.crossings, longest * self._diameter)
+            stopped = stops(self.traces, self.crossings, longest * self.traces.chart.diameter)
             count = len(left_of(self.crossings, stopped))
             if longest < SHORTEST or count <= 100 + CROSSINGS * len(stopped.kept):
                 return stopped
@@ -78,7 +75,9 @@ class Drawing:
     def offsets(self) -> csc_array:
         """Return how far nodes that traces pass too closely are off them, as rows of the map."""
         rimmed = with_rims(self.traces, self._nodes, boundary_halfedges(self._map.surface))
-        found = passing(rimmed, crossings(rimmed.chart, rimmed.chords), len(self._nodes))
+        same = rimmed is self.traces
+        crossed = self.crossings if same else crossings(rimmed.chart, rimmed.chords)
+        found = passing(rimmed, crossed, len(self._nodes))
         return conditions(rimmed, found, self._map.turned)
 
     def again(self, longest: float | None = None) -> Drawing:
@@ -116,13 +115,3 @@ class Drawing:
         """Return the traces as curves on the surface."""
         own = np.arange(len(self._nodes)) < len(self._singular)
         return as_curves(self._map.surface, self._nodes, own, self.traces, self._stops)
-
-
-def _diameter(chart: Chart) -> float:
-    """Return about the largest distance between vertices in a map."""
-    t = chart.triangulation
-    h = t.edge_halfedges
-    length = np.abs(chart.images.reshape(-1)[h])
-    graph = coo_array((length, (t.tail[h], t.head[h])), shape=(t.n_vertices, t.n_vertices))
-    far = dijkstra(graph.tocsr(), directed=False, indices=0).argmax()
-    return float(dijkstra(graph.tocsr(), directed=False, indices=far).max())

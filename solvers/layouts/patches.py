@@ -63,8 +63,7 @@ def sampled(surface: TriSurface, arrangement: Arrangement) -> PatchMesh:
         starts.append(start.reshape(3, -1))
         ways.append(way.reshape(-1))
         number = first + np.arange((w + 1) * (h + 1)).reshape(w + 1, h + 1)
-        corners = [number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]]
-        quads.append(np.stack(corners, axis=2).reshape(-1, 4))
+        quads.append(grid_quads(number))
         first += number.size
     chord, part, sign = np.concatenate(starts, axis=1)
     chord = chord.astype(np.int64)
@@ -80,6 +79,12 @@ def sampled(surface: TriSurface, arrangement: Arrangement) -> PatchMesh:
     points = np.einsum("kc,kcd->kd", weights, surface.vertices[surface.faces[face]])
     patch = np.repeat(np.arange(len(quads)), [len(q) for q in quads])
     return PatchMesh(points, np.concatenate(quads), patch)
+
+
+def grid_quads(grid: IntArray) -> IntArray:
+    """Return the corners (w h, 4) of the quads of a grid of vertex numbers (w + 1, h + 1)."""
+    corners = [grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]]
+    return np.stack(corners, axis=2).reshape(-1, 4)
 
 
 def _along(arrangement: Arrangement, halfarcs: IntArray, cells: int) -> FloatArray:

@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from solvers.layouts.charts import QUARTER, Chart
+from solvers.layouts.curves import along_edges
 from solvers.layouts.nodes import Node
 from solvers.layouts.tracing import Chords, Traces
-from solvers.triangulation import IntArray, next_halfedge
+from solvers.triangulation import IntArray
 
 
 def with_rims(traces: Traces, nodes: Sequence[Node], loops: Sequence[IntArray]) -> Traces:
@@ -30,39 +30,17 @@ def with_rims(traces: Traces, nodes: Sequence[Node], loops: Sequence[IntArray]) 
     chart = traces.chart
     tails = [chart.triangulation.tail[loop] for loop in loops]
     reentrant = {node.vertex for node in nodes if not node.inner and node.quads > 2}
+    if not reentrant:
+        return traces
     pieces, offsets = [traces.chords], list(traces.offsets)
     for loop, tail in zip(loops, tails, strict=True):
         for at in np.flatnonzero(np.isin(tail, list(reentrant))):
             for backwards in (False, True):
                 along = np.roll(loop[::-1], at) if backwards else np.roll(loop, -at)
-                piece = _rim(chart, along, backwards, len(offsets) - 1)
+                # as far as a typical edge is long
+                far = np.cumsum(np.abs(chart.images.reshape(-1)[along]))
+                along = along[: int(np.searchsorted(far, chart.edge_length)) + 1]
+                piece = along_edges(chart, along, len(offsets) - 1, backwards=backwards)
                 pieces.append(piece)
                 offsets.append(offsets[-1] + len(piece))
-    columns = zip(*(vars(piece).values() for piece in pieces), strict=True)
-    chords = Chords(*(np.concatenate(column) for column in columns))
-    return replace(traces, chords=chords, offsets=np.array(offsets))
-
-
-def _rim(chart: Chart, loop: IntArray, backwards: bool, number: int) -> Chords:
-    """Return the chords along boundary halfedges, as far as a typical edge is long."""
-    length = np.abs(chart.images.reshape(-1)[loop])
-    ends = np.cumsum(length)
-    n = int(np.searchsorted(ends, chart.edge_length)) + 1
-    loop, ends, length = loop[:n], ends[:n], length[:n]
-    axis = np.rint(np.angle(chart.images.reshape(-1)[loop]) / QUARTER).astype(np.int64)
-    tail, head = loop % 3, next_halfedge(loop) % 3
-    start, end = (head, tail) if backwards else (tail, head)
-    zero, corner = np.zeros(len(loop)), np.ones(len(loop), dtype=bool)
-    return Chords(
-        np.full(len(loop), number),
-        loop // 3,
-        (axis + 2 * backwards) % 4,
-        start,
-        zero,
-        corner,
-        end,
-        zero,
-        corner,
-        ends - length,
-        ends,
-    )
+    return replace(traces, chords=Chords.joined(pieces), offsets=np.array(offsets))

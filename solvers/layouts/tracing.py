@@ -63,6 +63,12 @@ class Chords:
     def __len__(self) -> int:
         return len(self.trace)
 
+    @classmethod
+    def joined(cls, pieces: Sequence[Chords]) -> Chords:
+        """Return the chords of all pieces, one after the other."""
+        columns = zip(*(vars(piece).values() for piece in pieces), strict=True)
+        return cls(*(np.concatenate(column) for column in columns))
+
     def __getitem__(self, chosen: IntArray | BoolArray) -> Chords:
         return Chords(*(values[chosen] for values in vars(self).values()))
 
@@ -127,7 +133,6 @@ def trace(
     t = chart.triangulation
     k = len(starts.halfedge)
     ends = np.full(k, LENGTH)
-    end_halfedge = np.full(k, -1, dtype=np.int64)
     records = [walk.first(starts)]
     for _ in range(int(60 * np.sqrt(t.n_faces)) + 1000):
         last = records[-1]
@@ -135,17 +140,11 @@ def trace(
         border = ~last.corner_out & (t.twin[h] < 0)
         ends[last.trace[last.corner_out]] = NODE
         ends[last.trace[border]] = BORDER
-        end_halfedge[last.trace[last.corner_out]] = h[last.corner_out]
         going = ~last.corner_out & ~border & (last.end < longest)
         if not going.any():
             break
         records.append(walk.next(last[going]))
-    joined = Chords(
-        *(
-            np.concatenate(column)
-            for column in zip(*(vars(r).values() for r in records), strict=True)
-        )
-    )
+    joined = Chords.joined(records)
     chords = joined[np.argsort(joined.trace, kind="stable")]
     offsets = np.searchsorted(chords.trace, np.arange(k + 1))
     end_node, end_slot = walk.arrivals(chords, offsets, ends)

@@ -12,6 +12,7 @@ from solvers.layouts.arrangement import Arrangement
 from solvers.layouts.charts import AXES, ComplexArray
 from solvers.layouts.crossings import ends_of
 from solvers.layouts.layout import QuadLayout
+from solvers.layouts.patches import grid_quads
 from solvers.layouts.straight import barycentric_in, walk
 from solvers.quads.quadmesh import QuadMesh
 from solvers.triangulation import BoolArray, FloatArray, IntArray
@@ -41,7 +42,7 @@ def fill(layout: QuadLayout, counts: IntArray) -> QuadMesh:
     fixed[:n] = layout.tmesh.critical
     loop = points.loops()
     number, kept = _merged(np.concatenate(points.doubles), fixed, loop)
-    quads = [number[_quads(grid)] for grid in grids]
+    quads = [number[grid_quads(grid)] for grid in grids]
     surface = layout.surface
     corners = surface.vertices[surface.faces[face[kept]]]
     return QuadMesh(
@@ -192,12 +193,6 @@ def _grid(points: _Points, rectangle: int) -> IntArray:
     number[:, 0], number[:, -1] = low.number, top
     number[0], number[-1] = first, right.number
     return number
-
-
-def _quads(grid: IntArray) -> IntArray:
-    """Return the corners (q, 4) of the quads of a grid of vertices."""
-    corners = [grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]]
-    return np.stack(corners, axis=2).reshape(-1, 4)
 
 
 def _merged(doubles: IntArray, fixed: BoolArray, loop: IntArray) -> tuple[IntArray, IntArray]:
