@@ -9,7 +9,6 @@ from PySide6.QtWidgets import (
     QComboBox,
     QDoubleSpinBox,
     QFormLayout,
-    QFrame,
     QHBoxLayout,
     QLabel,
     QPushButton,
@@ -18,13 +17,13 @@ from PySide6.QtWidgets import (
     QSpinBox,
     QStackedWidget,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
 from crossview.gui.icons import dot_icon
 from crossview.gui.panels.histogram import Histogram
 from crossview.gui.panels.quad_facts import ROWS, quad_facts
+from crossview.gui.panels.scrolling import scrolled
 from crossview.gui.panels.texts import BAD, GOOD
 from crossview.gui.panels.validity import DOT
 from crossview.gui.state import WindowState
@@ -129,16 +128,7 @@ class QuadsPanel(QScrollArea):
         self.histogram.show_values(quads.scaled_jacobian)
 
     def _lay_out(self) -> None:
-        content = QWidget()
-        self.setWidget(content)
-        self.setWidgetResizable(True)
-        self.setFrameShape(QFrame.Shape.NoFrame)
-        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        for area in (content, self.viewport()):
-            area.setAutoFillBackground(False)
-        layout = QVBoxLayout(content)
-        layout.setContentsMargins(8, 8, 8, 8)
-        layout.setSpacing(6)
+        layout = scrolled(self)
         wanted = QHBoxLayout()
         wanted.setSpacing(6)
         wanted.addWidget(self.unit)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtGui import QEnterEvent
-from PySide6.QtWidgets import QFormLayout, QFrame, QLabel, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFormLayout, QLabel, QScrollArea, QWidget
 
 from crossview.gui.panels.features import FeaturesBox
+from crossview.gui.panels.scrolling import scrolled
 from crossview.gui.panels.texts import count
 from crossview.gui.scene_view import poor_faces
 from crossview.gui.state import WindowState
@@ -59,16 +60,7 @@ class SurfacePanel(QScrollArea):
         )
         for title, label in rows:
             form.addRow(_faint(title), label)
-        content = QWidget()
-        self.setWidget(content)
-        self.setWidgetResizable(True)
-        self.setFrameShape(QFrame.Shape.NoFrame)
-        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        for area in (content, self.viewport()):
-            area.setAutoFillBackground(False)
-        layout = QVBoxLayout(content)
-        layout.setContentsMargins(8, 8, 8, 8)
-        layout.setSpacing(6)
+        layout = scrolled(self)
         layout.addWidget(self.name)
         layout.addLayout(form)
         layout.addWidget(self.features)
