@@ -16,10 +16,10 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import linear_sum_assignment, minimize
 
-from solvers.natural import natural_singularities
+from solvers.fields.natural import natural_singularities
 from solvers.primitives import BUILTIN
 from solvers.progress import run
-from solvers.triangulation import FloatArray
+from solvers.surface.triangulation import FloatArray
 
 BEGIN, END = "<!-- table -->", "<!-- end of table -->"
 HEADER = """| method | vertices | starts | eight valence 3 | anticube | cube | farthest from the anticube, median | worst | seconds, median |

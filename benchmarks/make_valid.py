@@ -18,14 +18,14 @@ from pathlib import Path
 import numpy as np
 
 from solvers.errors import CrossviewError
-from solvers.isotropic import IsotropicSolver
-from solvers.points import SurfacePoint
+from solvers.fields.isotropic import IsotropicSolver
 from solvers.primitives import BUILTIN
 from solvers.progress import run
-from solvers.refinement import refine_at
-from solvers.singularities import Singularity, default_corners
-from solvers.surface import TriSurface
-from solvers.validity import make_valid
+from solvers.singularities.budget import Singularity, default_corners
+from solvers.surface.points import SurfacePoint
+from solvers.surface.refinement import refine_at
+from solvers.surface.trisurface import TriSurface
+from solvers.validity.make_valid import make_valid
 
 BEGIN, END = "<!-- table -->", "<!-- end of table -->"
 HEADER = """| surfaces | conditions | singularities | made valid | to farther layouts | largest move, median | worst defect, fresh solve | seconds, median | only 2 + m unlocked |

@@ -22,16 +22,16 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial import cKDTree
 
-from crossview.case import Case
-from crossview.meshing import MeshOptions, quads_of
-from crossview.pipeline import Pipeline
-from crossview.problem import Problem
-from solvers.placing import far_points
+from crossview.cases.model import Case
+from crossview.workflow.pipeline import Pipeline
+from crossview.workflow.problem import Problem
+from crossview.workflow.quads import MeshOptions, quads_of
 from solvers.primitives import BUILTIN
 from solvers.progress import run
 from solvers.quads.quadmesh import scaled_jacobian
-from solvers.singularities import Singularity
-from solvers.surface import TriSurface
+from solvers.singularities.budget import Singularity
+from solvers.singularities.placing import far_points
+from solvers.surface.trisurface import TriSurface
 
 BEGIN, END = "<!-- peers -->", "<!-- end of peers -->"
 QUADS = 5_000

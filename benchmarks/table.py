@@ -17,17 +17,17 @@ from pathlib import Path
 
 import numpy as np
 
-from crossview.case import Case
-from crossview.problem import Problem
-from solvers.aligned import AlignedField, aligned_field
-from solvers.alternating import alternate
-from solvers.anisotropic import Iterate, MinimumNormNewton
-from solvers.isotropic import IsotropicSolver
-from solvers.placing import far_points
+from crossview.cases.model import Case
+from crossview.workflow.problem import Problem
+from solvers.fields.aligned import AlignedField, aligned_field
+from solvers.fields.alternating import alternate
+from solvers.fields.anisotropic import Iterate, MinimumNormNewton
+from solvers.fields.isotropic import IsotropicSolver
 from solvers.primitives import BUILTIN
 from solvers.progress import run
-from solvers.singularities import Singularity, default_corners
-from solvers.surface import TriSurface
+from solvers.singularities.budget import Singularity, default_corners
+from solvers.singularities.placing import far_points
+from solvers.surface.trisurface import TriSurface
 from tests.solvers.suite import separated
 
 BEGIN, END = "<!-- table -->", "<!-- end of table -->"

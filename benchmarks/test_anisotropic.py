@@ -13,16 +13,16 @@ import numpy as np
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from solvers.aligned import AlignedField, aligned_field
-from solvers.anisotropic import MinimumNormNewton, NewtonStep
-from solvers.factorization import factorized
-from solvers.integrable import anisotropic_field
-from solvers.isotropic import IsotropicSolver
-from solvers.operators import stiffness
+from solvers.algebra.factorization import factorized
+from solvers.algebra.operators import stiffness
+from solvers.fields.aligned import AlignedField, aligned_field
+from solvers.fields.anisotropic import MinimumNormNewton, NewtonStep
+from solvers.fields.integrable import anisotropic_field
+from solvers.fields.isotropic import IsotropicSolver
 from solvers.primitives import annulus
 from solvers.progress import run
-from solvers.singularities import Singularity
-from solvers.surface import TriSurface
+from solvers.singularities.budget import Singularity
+from solvers.surface.trisurface import TriSurface
 
 Measured = dict[tuple[str, int], float]
 
@@ -32,7 +32,7 @@ AROUND = {12_000: 190, 100_000: 545}
 MEMORY = """
 import pathlib, resource, sys
 from benchmarks.test_anisotropic import configured
-from solvers.integrable import anisotropic_field
+from solvers.fields.integrable import anisotropic_field
 from solvers.progress import run
 run(anisotropic_field(configured(int(sys.argv[1]))))
 status = pathlib.Path("/proc/self/status")

@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from solvers.guide import Guide
-from solvers.isotropic import IsotropicSolver
+from solvers.fields.isotropic import IsotropicSolver
 from solvers.primitives import BUILTIN
-from solvers.singularities import Singularity
+from solvers.singularities.budget import Singularity
+from solvers.validity.guide import Guide
 
 
 @cache

@@ -15,11 +15,11 @@ import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 from scipy.spatial import ConvexHull
 
-from solvers.factorization import Factorization, factorized
-from solvers.isotropic import IsotropicSolver
-from solvers.operators import stiffness
-from solvers.singularities import Singularity
-from solvers.surface import TriSurface
+from solvers.algebra.factorization import Factorization, factorized
+from solvers.algebra.operators import stiffness
+from solvers.fields.isotropic import IsotropicSolver
+from solvers.singularities.budget import Singularity
+from solvers.surface.trisurface import TriSurface
 
 SIZES = (10_000, 100_000, 1_000_000)
 Measured = dict[tuple[str, int], float]
@@ -28,8 +28,8 @@ MEMORY = """
 import pathlib, resource, sys
 import numpy as np
 from benchmarks.test_isotropic import configuration
-from solvers.isotropic import IsotropicSolver
-from solvers.surface import TriSurface
+from solvers.fields.isotropic import IsotropicSolver
+from solvers.surface.trisurface import TriSurface
 arrays = np.load(sys.argv[1])
 surface = TriSurface(arrays["vertices"], arrays["faces"])
 IsotropicSolver(surface).solve(configuration(surface))

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from crossview.case import Case
+from crossview.cases.model import Case
 from crossview.io import SUFFIXES
-from crossview.pipeline import solve_case
+from crossview.workflow.pipeline import solve_case
 from solvers.primitives import BUILTIN
 from solvers.progress import run
 

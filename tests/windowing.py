@@ -23,7 +23,7 @@ from vtkmodules.vtkRenderingCore import vtkRenderWindow
 from crossview.gui.app import application
 from crossview.gui.main_window import MainWindow
 from crossview.scene import ensure_rendering
-from crossview.scene.colors import rgb
+from crossview.view.colors import rgb
 
 PATIENCE = 60.0
 NO_KEYS = Qt.KeyboardModifier.NoModifier

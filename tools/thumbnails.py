@@ -4,12 +4,12 @@ from pathlib import Path
 
 from PIL import Image
 
-from crossview.case import Case
+from crossview.cases.gallery import path_of
+from crossview.cases.model import Case
 from crossview.export.raster import picture
-from crossview.gallery import path_of
 from crossview.gui.empty_state import FEATURED
-from crossview.pipeline import Pipeline, Problem
 from crossview.scene import field_view, layers_named
+from crossview.workflow.pipeline import Pipeline, Problem
 from solvers.progress import run
 
 FOLDER = Path(__file__).parents[1] / "resources" / "thumbnails"

@@ -9,6 +9,7 @@ from pathlib import Path
 from cyclopts import App, CycloptsError
 
 from crossview import __version__
+from crossview.cases.json_values import nearest
 from crossview.cli.complete import complete
 from crossview.cli.info import info
 from crossview.cli.make_valid import make_valid
@@ -17,7 +18,6 @@ from crossview.cli.render import gallery, render
 from crossview.cli.solve import solve
 from crossview.cli.terminal import complain
 from crossview.cli.window import window
-from crossview.jsonfield import nearest
 from solvers.errors import CrossviewError
 
 __all__ = ["app", "main"]

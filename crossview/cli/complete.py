@@ -6,9 +6,9 @@ from dataclasses import replace
 
 from crossview.cli.options import Flag, Output, chosen_case
 from crossview.cli.terminal import say, watch
-from crossview.problem import Problem
-from solvers.completion import missing_singularities
-from solvers.isotropic import IsotropicSolver
+from crossview.workflow.problem import Problem
+from solvers.fields.isotropic import IsotropicSolver
+from solvers.validity.completion import missing_singularities
 
 
 def complete(

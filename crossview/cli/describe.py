@@ -7,15 +7,15 @@ from typing import Any
 
 import numpy as np
 
-from crossview.case import Builtin, Case
+from crossview.cases.model import Builtin, Case
 from crossview.io import read_surface
-from crossview.loading import load_surfaces, mended
-from crossview.problem import Problem, placed
+from crossview.workflow.loading import load_surfaces, mended
+from crossview.workflow.problem import Problem, placed
 from solvers.errors import SurfaceError
-from solvers.flat_triangles import merge_coincident
-from solvers.repair import Repaired
-from solvers.singularities import index_budget
-from solvers.validation import array_problems, problems
+from solvers.repair.flat_triangles import merge_coincident
+from solvers.repair.soup import Repaired
+from solvers.singularities.budget import index_budget
+from solvers.surface.validation import array_problems, problems
 
 
 def describe(case: Case) -> dict[str, Any]:

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 from crossview.cli.options import Flag, Output, chosen_case
 from crossview.cli.terminal import say, watch
-from crossview.problem import Problem
-from solvers.validity import make_valid as moved_to_validity
+from crossview.workflow.problem import Problem
+from solvers.validity.make_valid import make_valid as moved_to_validity
 
 
 def make_valid(

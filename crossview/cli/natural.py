@@ -6,9 +6,9 @@ from dataclasses import replace
 
 from crossview.cli.options import Flag, Output, chosen_case
 from crossview.cli.terminal import say, watch
-from crossview.problem import Problem
-from solvers.natural import ALIGNMENTS, CURVATURE_WEIGHT, METHODS, natural_singularities
-from solvers.singularities import require_budget
+from crossview.workflow.problem import Problem
+from solvers.fields.natural import ALIGNMENTS, CURVATURE_WEIGHT, METHODS, natural_singularities
+from solvers.singularities.budget import require_budget
 
 
 def natural(

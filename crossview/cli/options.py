@@ -7,9 +7,9 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
-from crossview.case import Case, check_method
-from crossview.gallery import find_case
-from crossview.meshing import MeshOptions
+from crossview.cases.gallery import find_case
+from crossview.cases.model import Case, check_method
+from crossview.workflow.quads import MeshOptions
 from solvers.errors import CrossviewError
 
 Output = Annotated[str, Parameter(name=["--output", "-o"])]

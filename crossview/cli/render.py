@@ -10,13 +10,13 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from crossview import gallery as cases
-from crossview.case import Case
+from crossview.cases import gallery as cases
+from crossview.cases.model import Case
 from crossview.cli.options import Flag, Output, chosen_case, mesh_options
 from crossview.cli.terminal import say, watch
-from crossview.meshing import MeshOptions, layout, quads_of
-from crossview.pipeline import Solution, solve_case
-from crossview.staging import staged
+from crossview.io.staged_files import staged
+from crossview.workflow.pipeline import Solution, solve_case
+from crossview.workflow.quads import MeshOptions, layout, quads_of
 from solvers.errors import CrossviewError
 from solvers.layouts.errors import LayoutError
 from solvers.progress import Progress

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Generator, Sequence
 from pathlib import Path
 
-from crossview.case import Case
+from crossview.cases.model import Case
 from crossview.cli.options import Flag, Json, Output, chosen_case, mesh_options
 from crossview.cli.terminal import say, say_json, watch
-from crossview.meshing import MeshOptions, quads_of
-from crossview.pipeline import Solution, of_component, solve_case
-from crossview.staging import staged
+from crossview.io.staged_files import staged
+from crossview.workflow.pipeline import Solution, of_component, solve_case
+from crossview.workflow.quads import MeshOptions, quads_of
 from solvers.errors import CrossviewError
 from solvers.progress import Progress
 from solvers.quads.quadmesh import QuadMesh

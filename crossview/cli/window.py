@@ -6,7 +6,7 @@ import ctypes
 import os
 import sys
 
-from crossview.gallery import find_case
+from crossview.cases.gallery import find_case
 from solvers.errors import CrossviewError
 
 

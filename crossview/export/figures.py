@@ -9,8 +9,7 @@ from typing import Any
 
 from crossview.export.raster import FigureError, check_size, picture
 from crossview.export.vector import save_vector
-from crossview.meshing import misaligned_boundaries, separatrices, turned_field
-from crossview.pipeline import Solution
+from crossview.io.staged_files import staged
 from crossview.scene import (
     Camera,
     LayerSettings,
@@ -21,10 +20,11 @@ from crossview.scene import (
     layers_named,
 )
 from crossview.scene.camera import read_camera
-from crossview.scene.field import feature_lines
-from crossview.scene.meshes import curves_of, patches_of, quads_of, t_junctions_of
-from crossview.scene.view import Background
-from crossview.staging import staged
+from crossview.view.field import feature_lines
+from crossview.view.meshes import curves_of, patches_of, quads_of, t_junctions_of
+from crossview.view.scene_view import Background
+from crossview.workflow.pipeline import Solution
+from crossview.workflow.quads import misaligned_boundaries, separatrices, turned_field
 from solvers.errors import CrossviewError
 from solvers.quads.quadmesh import QuadMesh
 

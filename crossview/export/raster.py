@@ -16,7 +16,7 @@ from vtkmodules.vtkCommonCore import vtkFloatArray
 
 from crossview.scene import Camera, Scene, SceneView, ensure_rendering
 from crossview.scene.camera import rows
-from crossview.scene.geometry import FloatArray
+from crossview.view.geometry import FloatArray
 from solvers.errors import CrossviewError
 
 # A picture of this height, in pixels, has texts and lines of the window's size.

@@ -20,11 +20,11 @@ from crossview.export.vtp import (
     separatrix_lines,
     singularity_points,
 )
-from crossview.meshing import misaligned_boundaries, separatrices
-from crossview.pipeline import Solution
-from crossview.staging import staged
+from crossview.io.staged_files import staged
+from crossview.workflow.pipeline import Solution
+from crossview.workflow.quads import misaligned_boundaries, separatrices
 from solvers.quads.quadmesh import QuadMesh
-from solvers.validation import counted
+from solvers.surface.validation import counted
 
 REPORT = "report.json"
 FORMATS = ("vtk", "obj")
@@ -200,7 +200,7 @@ def _integrability(solution: Solution) -> dict[str, Any]:
         "converged": field.convergence.converged,
         "max_log_aspect": field.max_log_aspect,
         "aspect_growth": solution.growth,
-        "flips": solution.flips,
+        "flips": solution.inverted,
         "verdict": solution.verdict.status,
         "verdict_reason": solution.verdict.reason,
     }

@@ -10,7 +10,7 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.patches import Circle
 
 from crossview.export.raster import Seen
-from crossview.scene.geometry import FloatArray
+from crossview.view.geometry import FloatArray
 
 # A line is cut where it goes behind the surface, at one of so many points.
 _STEPS = 13

@@ -20,7 +20,10 @@ from crossview.export.raster import Seen, picture, pixel_ratio, seen
 from crossview.export.sheet import Sheet
 from crossview.export.vector_meshes import draw_marks, draw_quads, draw_separatrices
 from crossview.scene import LAYERS, Camera, SceneView, axes, legend
-from crossview.scene.colors import (
+from crossview.scene.crosses import CrossGlyphs
+from crossview.scene.curves import CUT_DASH, CUT_GAP
+from crossview.scene.singularities import DISC_PAINTS, DISC_PARTS, marker_radius
+from crossview.view.colors import (
     CROSS,
     CUT,
     CUT_HALO,
@@ -31,12 +34,9 @@ from crossview.scene.colors import (
     color_table,
     valence_color,
 )
-from crossview.scene.crosses import CrossGlyphs
-from crossview.scene.curves import CUT_DASH, CUT_GAP
-from crossview.scene.geometry import Triangles, dashes
-from crossview.scene.scalars import SCALARS, bar_texts, shown_scalar
-from crossview.scene.singularities import DISC_PAINTS, DISC_PARTS, marker_radius
-from crossview.scene.style import TOWARDS, WIDTH
+from crossview.view.geometry import Triangles, dashes
+from crossview.view.scalars import SCALARS, bar_texts, shown_scalar
+from crossview.view.style import TOWARDS, WIDTH
 
 # Pixels of the layout per inch on paper: 1600 x 1200 is 8 by 6 inches.
 _DPI = 200.0

@@ -6,14 +6,14 @@ import numpy as np
 
 from crossview.export.sheet import Sheet
 from crossview.scene import SceneView
-from crossview.scene.colors import CUT_HALO, MARK_PAPER, QUAD_EDGE, THEMES, valence_color
-from crossview.scene.geometry import Triangles
 from crossview.scene.marks import INKS, MARK_SIZE, RIM, STROKES, marks_of
-from crossview.scene.quad_geometry import QuadGeometry
 from crossview.scene.quads import irregular_radius
 from crossview.scene.separatrices import curve_height, separatrix_color
 from crossview.scene.singularities import DISC_PAINTS, DISC_PARTS
-from crossview.scene.style import TOWARDS, WIDTH
+from crossview.view.colors import CUT_HALO, MARK_PAPER, QUAD_EDGE, THEMES, valence_color
+from crossview.view.geometry import Triangles
+from crossview.view.quad_geometry import QuadGeometry
+from crossview.view.style import TOWARDS, WIDTH
 
 
 def draw_quads(sheet: Sheet, view: SceneView, triangles: Triangles) -> None:

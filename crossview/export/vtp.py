@@ -8,8 +8,8 @@ import numpy as np
 import pyvista as pv
 from numpy.typing import NDArray
 
-from crossview.meshing import separatrices, turned_field
-from crossview.pipeline import Solution
+from crossview.workflow.pipeline import Solution
+from crossview.workflow.quads import separatrices, turned_field
 from solvers.layouts.layout import QuadLayout
 
 ARM = 0.35

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
 
-from crossview.case import METHODS
+from crossview.cases.model import METHODS
 from crossview.gui.actions import ActionSpec
 from crossview.gui.state import WindowState
 from crossview.scene import LAYERS

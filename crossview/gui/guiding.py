@@ -10,9 +10,9 @@ from crossview.gui.background import Background
 from crossview.gui.state import WindowState
 from crossview.gui.store import Store
 from crossview.scene import GuideLine
-from crossview.scene.colors import condition_color
 from crossview.session.guiding import Guidance, GuideCurve
 from crossview.session.live import LiveEdit
+from crossview.view.colors import condition_color
 
 
 class Guiding:

@@ -11,7 +11,7 @@ from PySide6.QtGui import QColor, QIcon, QPainter, QPalette, QPen, QPixmap
 from PySide6.QtSvg import QSvgRenderer
 from PySide6.QtWidgets import QApplication
 
-from crossview.scene.colors import valence_color
+from crossview.view.colors import valence_color
 
 SIZES = (16, 20, 32, 40)
 

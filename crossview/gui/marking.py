@@ -9,11 +9,11 @@ import numpy as np
 
 from crossview.gui.state import FeatureTrial, MarkTool
 from crossview.gui.store import Store
-from crossview.marking import Marking
 from crossview.session.commands import Command, MarkFeatures
 from crossview.session.picking import EdgePicker
-from solvers.points import SurfacePoint
-from solvers.triangulation import IntArray
+from crossview.workflow.marking import Marking
+from solvers.surface.points import SurfacePoint
+from solvers.surface.triangulation import IntArray
 
 
 class Marks:

@@ -11,8 +11,8 @@ from PySide6.QtCore import QLocale, QSize, Qt
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QMenu, QSizePolicy, QSpinBox, QToolBar, QToolButton, QWidget
 
-from crossview.case import METHODS, Case
-from crossview.gallery import names, path_of
+from crossview.cases.gallery import names, path_of
+from crossview.cases.model import METHODS, Case
 from crossview.gui.action_table import ACTIONS, LABELLED, TOOL_VALENCES, TOOLBAR
 from crossview.gui.recent import forget_all, recent
 from crossview.session.commands import MAX_VALENCE, MIN_VALENCE

@@ -8,13 +8,13 @@ from functools import partial
 from crossview.gui.solving import Solving
 from crossview.gui.state import MessageAction, WindowState
 from crossview.gui.store import Store
-from crossview.meshing import MeshOptions
 from crossview.scene import Elements
 from crossview.session.commands import ChooseMethod, Command
 from crossview.session.meshes import Meshes, lay_out, make_quads, trace
-from solvers.crossfield import CrossField
+from crossview.workflow.quads import MeshOptions
+from solvers.fields.crossfield import CrossField
 from solvers.layouts.errors import LayoutError
-from solvers.surface import TriSurface
+from solvers.surface.trisurface import TriSurface
 
 KEPT = 4
 """Fields whose meshes are kept: one for each method."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QComboBox
 
-from crossview.case import METHODS
+from crossview.cases.model import METHODS
 from crossview.gui.state import WindowState
 from crossview.gui.workspace import Workspace
 from crossview.session.commands import METHOD_LABELS

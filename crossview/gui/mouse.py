@@ -9,7 +9,7 @@ from PySide6.QtCore import QEvent, QObject, QPointF, Qt
 from PySide6.QtGui import QMouseEvent, QWheelEvent
 
 from crossview.gui.workspace import Workspace
-from solvers.points import SurfacePoint
+from solvers.surface.points import SurfacePoint
 
 if TYPE_CHECKING:
     from crossview.gui.viewport import Viewport

@@ -11,7 +11,7 @@ from crossview.gui.store import Store
 from crossview.session.commands import ChooseMethod, Command, ReplaceSingularities
 from crossview.session.moving import move_to_validity, place_natural
 from solvers.progress import Progress
-from solvers.validity import Offer, ValidityError
+from solvers.validity.make_valid import Offer, ValidityError
 
 LABELS = {"anisotropic": "Solve anisotropic"}
 """Of buttons, where they are shorter than what is offered in words."""

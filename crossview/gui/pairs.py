@@ -18,7 +18,7 @@ from crossview.session.pairing import (
     rotate,
     split_one,
 )
-from solvers.points import SurfacePoint
+from solvers.surface.points import SurfacePoint
 
 
 class Pairs:

@@ -11,8 +11,8 @@ from vtkmodules.vtkCommonCore import mutable
 from vtkmodules.vtkCommonDataModel import vtkStaticCellLocator
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
-from solvers.points import SurfacePoint
-from solvers.surface import TriSurface
+from solvers.surface.points import SurfacePoint
+from solvers.surface.trisurface import TriSurface
 
 Place = tuple[float, float]
 """Device pixels from the lower left, as VTK counts."""

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from crossview.gui.state import WindowState
-from crossview.problem import Problem
-from crossview.scene.scalars import density_limits
+from crossview.view.scalars import density_limits
+from crossview.workflow.problem import Problem
 
 Range = tuple[float, float]
 Ranges = Mapping[str, Range]

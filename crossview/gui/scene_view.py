@@ -12,14 +12,14 @@ from crossview.gui.figure_settings import FigureSettings
 from crossview.gui.ranges import NO_RANGES, Ranges
 from crossview.gui.state import WindowState
 from crossview.scene import Elements, LayerSettings, Marker, SceneView, field_view
-from crossview.scene.colors import condition_color
-from crossview.scene.field import feature_lines
-from crossview.scene.meshes import curves_of, patches_of, quads_of, t_junctions_of
-from crossview.scene.view import Background
 from crossview.session.document import Document
-from solvers.crossfield import CrossField
-from solvers.surface import TriSurface
-from solvers.triangulation import FloatArray, IntArray
+from crossview.view.colors import condition_color
+from crossview.view.field import feature_lines
+from crossview.view.meshes import curves_of, patches_of, quads_of, t_junctions_of
+from crossview.view.scene_view import Background
+from solvers.fields.crossfield import CrossField
+from solvers.surface.triangulation import FloatArray, IntArray
+from solvers.surface.trisurface import TriSurface
 
 POOR_QUALITY = 0.1
 

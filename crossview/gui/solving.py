@@ -18,7 +18,7 @@ from crossview.session.methods import Iterate, MethodSolver, Solved
 from crossview.session.moving import Moving
 from crossview.session.tracing import LiveTracer, Traced
 from solvers.progress import Progress
-from solvers.triangulation import IntArray
+from solvers.surface.triangulation import IntArray
 
 T = TypeVar("T")
 

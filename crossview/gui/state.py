@@ -7,24 +7,24 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
-from crossview.case import METHODS
-from crossview.marking import Marking
-from crossview.pipeline import Solution
-from crossview.problem import Problem
+from crossview.cases.model import METHODS
 from crossview.scene import Elements, GuideLine, LayerSettings, default_layers
 from crossview.session.document import Document
 from crossview.session.live import LiveBase, LiveEdit
 from crossview.session.meshes import NO_MESHES, Meshes
 from crossview.session.methods import Iterate
 from crossview.session.moving import Moving
-from solvers.crossfield import CrossField
-from solvers.features import Features
+from crossview.workflow.marking import Marking
+from crossview.workflow.pipeline import Solution
+from crossview.workflow.problem import Problem
+from solvers.features.edges import Features
+from solvers.fields.crossfield import CrossField
 from solvers.layouts.separatrices import Separatrices
-from solvers.points import SurfacePoint
 from solvers.progress import Progress
-from solvers.singularities import IndexBudget, Singularity, index_budget
-from solvers.surface import TriSurface
-from solvers.triangulation import FloatArray, IntArray
+from solvers.singularities.budget import IndexBudget, Singularity, index_budget
+from solvers.surface.points import SurfacePoint
+from solvers.surface.triangulation import FloatArray, IntArray
+from solvers.surface.trisurface import TriSurface
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,8 +12,8 @@ from crossview.session.commands import Command, MoveSingularity
 from crossview.session.document import Document
 from crossview.session.guiding import Guidance
 from crossview.session.live import LiveEdit
-from solvers.points import SurfacePoint
-from solvers.singularities import Singularity
+from solvers.singularities.budget import Singularity
+from solvers.surface.points import SurfacePoint
 
 
 class Trials:

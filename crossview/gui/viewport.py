@@ -28,8 +28,8 @@ from crossview.gui.scene_view import scene_view
 from crossview.gui.state import WindowState
 from crossview.gui.workspace import Workspace
 from crossview.scene import Scene, software_renderer
-from crossview.scene.scalars import shown_scalar
 from crossview.scene.singularities import marker_radius
+from crossview.view.scalars import shown_scalar
 
 LATE_MS = 120
 """How long a dragged singularity waits to be drawn together with its field."""

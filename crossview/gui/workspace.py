@@ -32,9 +32,9 @@ from crossview.session.history import History
 from crossview.session.mending import Mending
 from crossview.session.opening import open_target, read_triangles
 from solvers.errors import SurfaceError
-from solvers.points import SurfacePoint
-from solvers.singularities import Singularity
-from solvers.triangulation import FloatArray, IntArray
+from solvers.singularities.budget import Singularity
+from solvers.surface.points import SurfacePoint
+from solvers.surface.triangulation import FloatArray, IntArray
 
 
 class Workspace(Store):

@@ -18,7 +18,7 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridRead
 
 from crossview.io.polygons import Polygons
 from solvers.errors import CrossviewError
-from solvers.validation import counted
+from solvers.surface.validation import counted
 
 CORNERS = {"triangle": 3, "triangle6": 3, "quad": 4, "quad8": 4, "quad9": 4}
 """Corners of meshio's surface cells; their further nodes lie inside edges."""

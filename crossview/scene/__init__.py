@@ -25,10 +25,9 @@ Only the thread that owns the plotter may call the scene.
 
 from crossview.scene.camera import Camera
 from crossview.scene.display import ensure_rendering, software_renderer
-from crossview.scene.field import field_view
 from crossview.scene.scene import Scene
-from crossview.scene.values import Curves, Elements, GuideLine, Marker, Quads
-from crossview.scene.view import (
+from crossview.view.field import field_view
+from crossview.view.scene_view import (
     LAYERS,
     LayerKind,
     LayerSettings,
@@ -36,6 +35,7 @@ from crossview.scene.view import (
     default_layers,
     layers_named,
 )
+from crossview.view.values import Curves, Elements, GuideLine, Marker, Quads
 
 __all__ = [
     "LAYERS",

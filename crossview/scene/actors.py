@@ -10,9 +10,9 @@ import pyvista as pv
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkRenderingCore import vtkActor, vtkMapper, vtkPolyDataMapper
 
-from crossview.scene.colors import rgb
-from crossview.scene.geometry import FloatArray, IntArray
-from crossview.scene.style import TOWARDS
+from crossview.view.colors import rgb
+from crossview.view.geometry import FloatArray, IntArray
+from crossview.view.style import TOWARDS
 
 
 class MeshActor:

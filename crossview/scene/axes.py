@@ -6,10 +6,10 @@ import numpy as np
 import pyvista as pv
 
 from crossview.scene.camera import rows
-from crossview.scene.colors import THEMES
-from crossview.scene.geometry import FloatArray, Triangles
-from crossview.scene.overlay import Label, Patches, bytes_of
-from crossview.scene.view import SceneView
+from crossview.scene.overlay import Label, Patches
+from crossview.view.colors import THEMES, bytes_of
+from crossview.view.geometry import FloatArray, Triangles
+from crossview.view.scene_view import SceneView
 
 _LENGTH, _CORNER = 24.0, 46.0
 TEXT_SIZE, LINE_WIDTH = 11.0, 1.5

@@ -8,9 +8,9 @@ import numpy as np
 from vtkmodules.vtkCommonMath import vtkMatrix4x4
 from vtkmodules.vtkRenderingCore import vtkCamera
 
-from crossview.scene.geometry import FloatArray, Triangles
+from crossview.view.geometry import FloatArray, Triangles
 from solvers.errors import CrossviewError
-from solvers.validation import LARGEST
+from solvers.surface.validation import LARGEST
 
 _VIEW_ANGLE = 24.0
 # A surface this flat lies on its flat side; others stand along y, as most model files do.

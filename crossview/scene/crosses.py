@@ -6,12 +6,12 @@ import numpy as np
 import pyvista as pv
 
 from crossview.scene.actors import MeshActor
-from crossview.scene.colors import CROSS
-from crossview.scene.geometry import FloatArray, Triangles
-from crossview.scene.sampling import spread_sites
-from crossview.scene.style import WIDTH
-from crossview.scene.view import SceneView
 from crossview.scene.watch import Watch
+from crossview.view.colors import CROSS
+from crossview.view.geometry import FloatArray, Triangles
+from crossview.view.sampling import spread_sites
+from crossview.view.scene_view import SceneView
+from crossview.view.style import WIDTH
 
 # How many crosses there are at density 1: of a planar surface all are seen at once.
 _NUMBER, _NUMBER_PLANAR = 2200, 1400

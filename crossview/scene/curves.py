@@ -6,11 +6,11 @@ import numpy as np
 import pyvista as pv
 
 from crossview.scene.actors import MeshActor
-from crossview.scene.colors import CUT, CUT_HALO, FEATURE, LOOP, PROBLEM, THEMES
-from crossview.scene.geometry import Triangles, dashes
-from crossview.scene.style import WIDTH
-from crossview.scene.view import SceneView
 from crossview.scene.watch import Watch
+from crossview.view.colors import CUT, CUT_HALO, FEATURE, LOOP, PROBLEM, THEMES
+from crossview.view.geometry import Triangles, dashes
+from crossview.view.scene_view import SceneView
+from crossview.view.style import WIDTH
 
 # Dash and gap of the cut graph, in diagonals of the surface.
 CUT_DASH, CUT_GAP = 0.012, 0.008

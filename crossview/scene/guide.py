@@ -6,13 +6,12 @@ import numpy as np
 import pyvista as pv
 
 from crossview.scene.actors import MeshActor, set_cell_colors
-from crossview.scene.colors import CUT_HALO
-from crossview.scene.geometry import IntArray, Triangles
-from crossview.scene.overlay import bytes_of
-from crossview.scene.style import WIDTH
-from crossview.scene.values import GuideLine
-from crossview.scene.view import SceneView
 from crossview.scene.watch import Watch
+from crossview.view.colors import CUT_HALO, bytes_of
+from crossview.view.geometry import IntArray, Triangles
+from crossview.view.scene_view import SceneView
+from crossview.view.style import WIDTH
+from crossview.view.values import GuideLine
 
 
 class GuideLayer:

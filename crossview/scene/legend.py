@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pyvista as pv
 
-from crossview.scene.colors import THEMES, color_table, valence_color
-from crossview.scene.geometry import IntArray, Triangles
-from crossview.scene.overlay import Label, Patches, bytes_of, discs
-from crossview.scene.scalars import SCALARS, bar_texts, shown_scalar
-from crossview.scene.view import SceneView
+from crossview.scene.overlay import Label, Patches, discs
 from crossview.scene.watch import Watch
+from crossview.view.colors import THEMES, bytes_of, color_table, valence_color
+from crossview.view.geometry import IntArray, Triangles
+from crossview.view.scalars import SCALARS, bar_texts, shown_scalar
+from crossview.view.scene_view import SceneView
 
 MARGIN = 18.0
 TEXT_SIZE, TITLE_SIZE = 13.0, 15.0

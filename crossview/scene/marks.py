@@ -6,10 +6,10 @@ import numpy as np
 import pyvista as pv
 
 from crossview.scene.actors import MeshActor
-from crossview.scene.colors import MARK_INK, MARK_PAPER, MARK_WARNING, rgb
-from crossview.scene.geometry import FloatArray, Triangles
-from crossview.scene.view import SceneView
 from crossview.scene.watch import Watch
+from crossview.view.colors import MARK_INK, MARK_PAPER, MARK_WARNING, rgb
+from crossview.view.geometry import FloatArray, Triangles
+from crossview.view.scene_view import SceneView
 
 MARK_SIZE = 19.0
 """Diameter of a sign in pixels of the window."""

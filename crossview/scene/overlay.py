@@ -15,8 +15,8 @@ from vtkmodules.vtkCommonCore import VTK_FONT_FILE
 from vtkmodules.vtkRenderingCore import vtkActor2D, vtkCoordinate, vtkPolyDataMapper2D, vtkTextActor
 
 from crossview.scene.actors import cell_array, set_cell_colors
-from crossview.scene.colors import rgb
-from crossview.scene.geometry import FloatArray, IntArray
+from crossview.view.colors import rgb
+from crossview.view.geometry import FloatArray, IntArray
 
 # VTK's own fonts have no Greek letters; this one comes with matplotlib, which pyvista needs.
 FONT = str(Path(matplotlib.get_data_path()) / "fonts/ttf/DejaVuSans.ttf")
@@ -106,11 +106,6 @@ class Patches:
     def remove(self) -> None:
         """Take the patches off the plotter."""
         self._plotter.renderer.RemoveViewProp(self._actor)
-
-
-def bytes_of(colors: list[str]) -> IntArray:
-    """Return the colours as rows of red, green, blue, 0 to 255."""
-    return np.round(255.0 * np.array([rgb(color) for color in colors])).astype(np.uint8)
 
 
 def discs(centres: FloatArray, radius: float, sides: int = 40) -> tuple[FloatArray, IntArray]:

@@ -6,12 +6,12 @@ import numpy as np
 import pyvista as pv
 
 from crossview.scene.actors import MeshActor
-from crossview.scene.colors import PROBLEM
-from crossview.scene.geometry import FloatArray, IntArray, Triangles
-from crossview.scene.style import WIDTH
-from crossview.scene.values import Elements
-from crossview.scene.view import SceneView
 from crossview.scene.watch import Watch
+from crossview.view.colors import PROBLEM
+from crossview.view.geometry import FloatArray, IntArray, Triangles
+from crossview.view.scene_view import SceneView
+from crossview.view.style import WIDTH
+from crossview.view.values import Elements
 
 
 class ProblemLayer:

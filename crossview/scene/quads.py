@@ -7,16 +7,16 @@ import numpy.typing as npt
 import pyvista as pv
 
 from crossview.scene.actors import MeshActor, set_cell_colors
-from crossview.scene.colors import QUAD_EDGE, SURFACE, THEMES, color_table, rgb, valence_color
-from crossview.scene.geometry import Triangles
-from crossview.scene.quad_geometry import QuadGeometry
-from crossview.scene.scalars import SCALARS, quality_limits
 from crossview.scene.singularities import Balls, marker_radius
-from crossview.scene.style import WIDTH
 from crossview.scene.surface import shade, style_surface
-from crossview.scene.values import Quads
-from crossview.scene.view import LayerSettings, SceneView
 from crossview.scene.watch import Watch
+from crossview.view.colors import QUAD_EDGE, SURFACE, THEMES, color_table, rgb, valence_color
+from crossview.view.geometry import Triangles
+from crossview.view.quad_geometry import QuadGeometry
+from crossview.view.scalars import SCALARS, quality_limits
+from crossview.view.scene_view import LayerSettings, SceneView
+from crossview.view.style import WIDTH
+from crossview.view.values import Quads
 
 IRREGULAR_SIZE = 0.7
 """Radius of an irregular vertex's dot, in radii of a singularity's."""

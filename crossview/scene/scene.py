@@ -9,10 +9,8 @@ import pyvista as pv
 
 from crossview.scene.axes import AxesLayer
 from crossview.scene.camera import Camera, Room, camera_for
-from crossview.scene.colors import THEMES, rgb
 from crossview.scene.crosses import CrossesLayer
 from crossview.scene.curves import BoundaryLayer, CutLayer, FeaturesLayer, LoopLayer
-from crossview.scene.geometry import FloatArray, IntArray, Triangles
 from crossview.scene.guide import GuideLayer
 from crossview.scene.legend import (
     BAR_ROOM,
@@ -26,12 +24,14 @@ from crossview.scene.legend import (
 from crossview.scene.marks import MarksLayer
 from crossview.scene.problems import ProblemLayer
 from crossview.scene.quads import QuadsLayer
-from crossview.scene.scalars import quality_limits, shown_scalar
 from crossview.scene.separatrices import SeparatricesLayer
 from crossview.scene.singularities import SingularitiesLayer
 from crossview.scene.surface import SurfaceLayer
-from crossview.scene.view import SceneView
 from crossview.scene.watch import Watch
+from crossview.view.colors import THEMES, rgb
+from crossview.view.geometry import FloatArray, IntArray, Triangles
+from crossview.view.scalars import quality_limits, shown_scalar
+from crossview.view.scene_view import SceneView
 
 # Where the light is: to the right of the eye, above it, and away from what is seen.
 _LIGHT = (-0.3, 0.4, 1.0)

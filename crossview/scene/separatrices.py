@@ -6,13 +6,12 @@ import numpy as np
 import pyvista as pv
 
 from crossview.scene.actors import MeshActor, set_cell_colors
-from crossview.scene.colors import CUT_HALO, SEPARATRIX, valence_color
-from crossview.scene.geometry import Triangles
-from crossview.scene.overlay import bytes_of
-from crossview.scene.style import TOWARDS, WIDTH
-from crossview.scene.values import Curves
-from crossview.scene.view import SceneView
 from crossview.scene.watch import Watch
+from crossview.view.colors import CUT_HALO, SEPARATRIX, bytes_of, valence_color
+from crossview.view.geometry import Triangles
+from crossview.view.scene_view import SceneView
+from crossview.view.style import TOWARDS, WIDTH
+from crossview.view.values import Curves
 
 
 class SeparatricesLayer:

@@ -10,11 +10,11 @@ import pyvista as pv
 from scipy.spatial.distance import pdist
 
 from crossview.scene.actors import MeshActor, set_cell_colors
-from crossview.scene.colors import rgb, valence_color
-from crossview.scene.geometry import FloatArray, IntArray, Triangles
-from crossview.scene.values import Marker
-from crossview.scene.view import SceneView
 from crossview.scene.watch import Watch
+from crossview.view.colors import rgb, valence_color
+from crossview.view.geometry import FloatArray, IntArray, Triangles
+from crossview.view.scene_view import SceneView
+from crossview.view.values import Marker
 
 # Radius of a singularity in diagonals of the surface, and at most in distances to its neighbour.
 _RADIUS, _CROWDED = 0.014, 0.42

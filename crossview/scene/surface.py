@@ -11,12 +11,12 @@ from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
 
 from crossview.scene.actors import MeshActor
-from crossview.scene.colors import SURFACE, color_table, rgb
-from crossview.scene.geometry import FloatArray, IntArray, Triangles
-from crossview.scene.scalars import SCALARS, Limits, scalar_limits, scalar_values, shown_scalar
-from crossview.scene.style import WIDTH
-from crossview.scene.view import SceneView
 from crossview.scene.watch import Watch
+from crossview.view.colors import SURFACE, color_table, rgb
+from crossview.view.geometry import FloatArray, IntArray, Triangles
+from crossview.view.scalars import SCALARS, Limits, scalar_limits, scalar_values, shown_scalar
+from crossview.view.scene_view import SceneView
+from crossview.view.style import WIDTH
 
 # Edges sharper than this, in degrees, stay sharp in the shading.
 _FEATURE_ANGLE = 50.0

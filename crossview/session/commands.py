@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Protocol
 
-from crossview.marking import Marking
 from crossview.session.document import Document
-from solvers.points import SurfacePoint
-from solvers.singularities import Singularity
+from crossview.workflow.marking import Marking
+from solvers.singularities.budget import Singularity
+from solvers.surface.points import SurfacePoint
 
 METHOD_LABELS = {
     "isotropic": "Isotropic",

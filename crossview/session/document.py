@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from crossview.case import Case
-from crossview.problem import Problem
-from solvers.singularities import IndexBudget, Singularity, index_budget
-from solvers.surface import TriSurface
+from crossview.cases.model import Case
+from crossview.workflow.problem import Problem
+from solvers.singularities.budget import IndexBudget, Singularity, index_budget
+from solvers.surface.trisurface import TriSurface
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,10 +9,10 @@ from functools import cached_property
 import numpy as np
 
 from crossview.session.live import LiveEdit
-from solvers.guide import Guide
-from solvers.points import SurfacePoint
 from solvers.progress import Progress
-from solvers.triangulation import FloatArray
+from solvers.surface.points import SurfacePoint
+from solvers.surface.triangulation import FloatArray
+from solvers.validity.guide import Guide
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,17 +14,17 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from crossview.marking import Marking
-from crossview.pipeline import Solution
-from crossview.problem import Problem
 from crossview.session.document import Document
-from crossview.solution import Stage
-from solvers.crossfield import CrossField
-from solvers.isotropic import IsotropicSolver
-from solvers.points import SurfacePoint
+from crossview.workflow.marking import Marking
+from crossview.workflow.pipeline import Solution
+from crossview.workflow.problem import Problem
+from crossview.workflow.solution import Stage
+from solvers.fields.crossfield import CrossField
+from solvers.fields.isotropic import IsotropicSolver
 from solvers.progress import Progress
-from solvers.singularities import Singularity
-from solvers.surface import TriSurface
+from solvers.singularities.budget import Singularity
+from solvers.surface.points import SurfacePoint
+from solvers.surface.trisurface import TriSurface
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,9 +15,9 @@ from crossview.session.commands import (
 )
 from crossview.session.document import Document
 from crossview.session.pairing import distribute
-from solvers.placing import far_points
 from solvers.progress import Progress
-from solvers.singularities import Singularity
+from solvers.singularities.budget import Singularity
+from solvers.singularities.placing import far_points
 
 MOST_ADDED = 64
 

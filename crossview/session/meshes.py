@@ -7,15 +7,15 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from crossview.meshing import MeshOptions, layout, mesh, misaligned_boundaries, separatrices
-from crossview.pipeline import Solution
-from solvers.crossfield import CrossField
+from crossview.workflow.pipeline import Solution
+from crossview.workflow.quads import MeshOptions, layout, mesh, misaligned_boundaries, separatrices
+from solvers.fields.crossfield import CrossField
 from solvers.layouts.errors import LayoutError
 from solvers.layouts.layout import QuadLayout
 from solvers.layouts.separatrices import Separatrices
 from solvers.progress import Progress, between
 from solvers.quads.quadmesh import QuadMesh
-from solvers.triangulation import FloatArray
+from solvers.surface.triangulation import FloatArray
 
 LAID_OUT = 0.6
 """Share of a whole computation of quads that the layout takes, for its progress."""

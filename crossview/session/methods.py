@@ -6,12 +6,12 @@ import time
 from collections.abc import Generator
 from dataclasses import dataclass
 
-from crossview.pipeline import Pipeline, Solution
-from crossview.problem import Problem
 from crossview.session.live import LiveBase, with_directions
-from solvers.aligned import AlignedField, IntegratedField
-from solvers.crossfield import CrossField
-from solvers.integrable import FieldStep
+from crossview.workflow.pipeline import Pipeline, Solution
+from crossview.workflow.problem import Problem
+from solvers.fields.aligned import AlignedField, IntegratedField
+from solvers.fields.crossfield import CrossField
+from solvers.fields.integrable import FieldStep
 from solvers.progress import Progress, relayed
 
 DRAWN_EVERY = 0.2

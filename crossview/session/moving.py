@@ -11,13 +11,13 @@ from crossview.session.commands import Command, ReplaceSingularities
 from crossview.session.document import Document
 from crossview.session.live import LiveBase, with_directions
 from crossview.session.methods import DRAWN_EVERY
-from solvers.crossfield import CrossField
 from solvers.errors import CrossviewError
-from solvers.natural import ALIGNMENTS, CrossesStep, natural_singularities
+from solvers.fields.crossfield import CrossField
+from solvers.fields.natural import ALIGNMENTS, CrossesStep, natural_singularities
 from solvers.progress import Progress, relayed
-from solvers.singularities import Singularity
-from solvers.triangulation import FloatArray
-from solvers.validity import Moved, make_valid
+from solvers.singularities.budget import Singularity
+from solvers.surface.triangulation import FloatArray
+from solvers.validity.make_valid import Moved, make_valid
 
 T = TypeVar("T")
 
@@ -62,7 +62,7 @@ def move_to_validity(
     Raises
     ------
     SingularityError
-        As `solvers.validity.make_valid`.
+        As `solvers.validity.make_valid.make_valid`.
     """
     problem = document.problem
     computation = make_valid(

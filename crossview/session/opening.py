@@ -6,12 +6,12 @@ from collections.abc import Generator
 from dataclasses import replace
 from pathlib import Path
 
-from crossview.gallery import find_case
+from crossview.cases.gallery import find_case
 from crossview.io import read_surface
 from crossview.session.document import Document
-from solvers.flat_triangles import merge_coincident
 from solvers.progress import Progress
-from solvers.triangulation import FloatArray, IntArray
+from solvers.repair.flat_triangles import merge_coincident
+from solvers.surface.triangulation import FloatArray, IntArray
 
 
 def open_target(

@@ -8,13 +8,13 @@ import numpy as np
 
 from crossview.session.commands import AddSingularities, Command, ReplaceSingularities
 from crossview.session.document import Document
-from solvers.completion import missing_singularities
-from solvers.isotropic import IsotropicSolver
-from solvers.pairs import merged, pair_at, split
-from solvers.placing import far_points
-from solvers.points import SurfacePoint
+from solvers.fields.isotropic import IsotropicSolver
 from solvers.progress import Progress
-from solvers.symmetry import mirrored, turned
+from solvers.singularities.pairs import merged, pair_at, split
+from solvers.singularities.placing import far_points
+from solvers.singularities.symmetry import mirrored, turned
+from solvers.surface.points import SurfacePoint
+from solvers.validity.completion import missing_singularities
 
 
 def add_pair(document: Document, point: SurfacePoint) -> Command:

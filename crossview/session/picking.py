@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from solvers.edge_paths import EdgePaths
-from solvers.points import SurfacePoint
-from solvers.surface import TriSurface
-from solvers.triangulation import IntArray
+from solvers.surface.edge_paths import EdgePaths
+from solvers.surface.points import SurfacePoint
+from solvers.surface.triangulation import IntArray
+from solvers.surface.trisurface import TriSurface
 
 
 class EdgePicker:

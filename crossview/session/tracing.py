@@ -7,7 +7,7 @@ from collections.abc import Generator
 from dataclasses import dataclass
 
 from crossview.session.live import LiveEdit
-from solvers.crossfield import CrossField
+from solvers.fields.crossfield import CrossField
 from solvers.layouts.separatrices import Separatrices, field_separatrices
 from solvers.progress import Progress
 

@@ -15,8 +15,8 @@ from solvers.layouts.pieces import as_sides, cycles
 from solvers.layouts.stops import Stops, left_of
 from solvers.layouts.tmesh import TMesh
 from solvers.layouts.tracing import NODE, Traces
-from solvers.surface import TriSurface
-from solvers.triangulation import BoolArray, FloatArray, IntArray
+from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
+from solvers.surface.trisurface import TriSurface
 
 
 @dataclass(frozen=True, eq=False)

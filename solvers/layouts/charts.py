@@ -10,8 +10,8 @@ import numpy.typing as npt
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 
-from solvers.crossfield import CrossField
-from solvers.triangulation import IntArray, IntrinsicTriangulation, previous_halfedge
+from solvers.fields.crossfield import CrossField
+from solvers.surface.triangulation import IntArray, IntrinsicTriangulation, previous_halfedge
 
 ComplexArray = npt.NDArray[np.complex128]
 

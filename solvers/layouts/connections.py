@@ -13,7 +13,7 @@ from scipy.sparse import coo_array, csc_array
 from solvers.layouts.charts import AXES, QUARTER, ComplexArray
 from solvers.layouts.crossings import Crossings
 from solvers.layouts.tracing import Traces
-from solvers.triangulation import FloatArray, IntArray, wrap
+from solvers.surface.triangulation import FloatArray, IntArray, wrap
 
 NEAR = 0.02
 """Nodes this much off a line, of its length, are put on it, if the mesh does not resolve that."""

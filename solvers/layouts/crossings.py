@@ -13,7 +13,7 @@ import numpy as np
 
 from solvers.layouts.charts import AXES, Chart, ComplexArray
 from solvers.layouts.tracing import Chords
-from solvers.triangulation import BoolArray, FloatArray, IntArray
+from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
 
 
 @dataclass(frozen=True, eq=False)

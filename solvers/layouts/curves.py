@@ -11,8 +11,8 @@ from solvers.layouts.charts import QUARTER, Chart
 from solvers.layouts.nodes import Node
 from solvers.layouts.stops import Stops
 from solvers.layouts.tracing import BORDER, Chords, Traces
-from solvers.surface import TriSurface
-from solvers.triangulation import FloatArray, IntArray, next_halfedge
+from solvers.surface.triangulation import FloatArray, IntArray, next_halfedge
+from solvers.surface.trisurface import TriSurface
 
 
 @dataclass(frozen=True, eq=False)

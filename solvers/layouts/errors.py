@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from solvers.errors import CrossviewError
-from solvers.triangulation import IntArray
+from solvers.surface.triangulation import IntArray
 
 
 class LayoutError(CrossviewError):

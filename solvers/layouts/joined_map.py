@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import csc_array
 
-from solvers.aligned import IntegratedField
-from solvers.features import Features
+from solvers.features.edges import Features
+from solvers.fields.aligned import IntegratedField
 from solvers.layouts.charts import QUARTER, Chart
 from solvers.layouts.errors import LayoutError
-from solvers.seamless import SeamlessFit
-from solvers.surface import TriSurface
-from solvers.triangulation import IntArray
+from solvers.maps.seamless import SeamlessFit
+from solvers.surface.triangulation import IntArray
+from solvers.surface.trisurface import TriSurface
 
 LITTLE = np.radians(2)
 """By how much the map may turn crosses that were turned before it was made."""
@@ -42,7 +42,7 @@ class JoinedMap:
     def __init__(self, integrated: IntegratedField) -> None:
         self.integrated = integrated
         self._integrability = integrated.aligned.integrability
-        self._fit = SeamlessFit(self._integrability, integrated.x)
+        self._fit = SeamlessFit(integrated)
         self.turned = 0.0
         self.chart = self._chart()
 

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from solvers.aligned import IntegratedField
+from solvers.fields.aligned import IntegratedField
 from solvers.layouts.arrangement import Arrangement
 from solvers.layouts.connections import best_turn
 from solvers.layouts.drawing import LONGEST, Drawing
@@ -19,8 +19,8 @@ from solvers.layouts.patches import PatchMesh, sampled
 from solvers.layouts.separatrices import Separatrices
 from solvers.layouts.tmesh import TMesh
 from solvers.progress import Progress
-from solvers.surface import TriSurface
-from solvers.triangulation import FloatArray
+from solvers.surface.triangulation import FloatArray
+from solvers.surface.trisurface import TriSurface
 
 SHORT = 1.5
 """Length of traces, in diameters, while the map is turned and joined."""

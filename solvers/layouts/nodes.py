@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from solvers.crossfield import CrossField
-from solvers.features import Features
+from solvers.features.edges import Features
+from solvers.fields.crossfield import CrossField
 from solvers.layouts.charts import QUARTER, Chart
-from solvers.triangulation import FloatArray, IntArray, previous_halfedge
+from solvers.surface.triangulation import FloatArray, IntArray, previous_halfedge
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,8 +10,8 @@ from solvers.layouts.arrangement import Arrangement
 from solvers.layouts.charts import AXES
 from solvers.layouts.crossings import ends_of
 from solvers.layouts.straight import barycentric_in, walk
-from solvers.surface import TriSurface
-from solvers.triangulation import FloatArray, IntArray
+from solvers.surface.triangulation import FloatArray, IntArray
+from solvers.surface.trisurface import TriSurface
 
 COARSEST, FINEST = 16, 64
 """Cells along a side of a patch."""

@@ -6,7 +6,7 @@ import numpy as np
 
 from solvers.layouts.curves import Curves
 from solvers.layouts.errors import LayoutError
-from solvers.triangulation import BoolArray, FloatArray, IntArray
+from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
 
 
 def cycles(

@@ -10,7 +10,7 @@ import numpy as np
 from solvers.layouts.curves import along_edges
 from solvers.layouts.nodes import Node
 from solvers.layouts.tracing import Chords, Traces
-from solvers.triangulation import IntArray
+from solvers.surface.triangulation import IntArray
 
 
 def with_rims(traces: Traces, nodes: Sequence[Node], loops: Sequence[IntArray]) -> Traces:

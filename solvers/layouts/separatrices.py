@@ -7,14 +7,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from solvers.crossfield import CrossField
+from solvers.fields.crossfield import CrossField
 from solvers.layouts.charts import AXES, Chart
 from solvers.layouts.crossings import crossings
 from solvers.layouts.nodes import Node, singular_nodes, starts_at
 from solvers.layouts.stops import Stops, stops
 from solvers.layouts.tracing import BORDER, LENGTH, Traces, trace
-from solvers.surface import TriSurface
-from solvers.triangulation import BoolArray, FloatArray, IntArray
+from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
+from solvers.surface.trisurface import TriSurface
 
 SINGULARITY, BOUNDARY, T_JUNCTION, OPEN = range(4)
 """Where a separatrix ends; `OPEN`: nowhere, it was cut for its length."""

@@ -13,7 +13,7 @@ import numpy as np
 
 from solvers.layouts.crossings import Crossings
 from solvers.layouts.tracing import BORDER, LENGTH, NODE, Traces
-from solvers.triangulation import BoolArray, FloatArray
+from solvers.surface.triangulation import BoolArray, FloatArray
 
 
 @dataclass(frozen=True, eq=False)

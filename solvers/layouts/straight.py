@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from solvers.layouts.charts import AXES, Chart, ComplexArray
-from solvers.triangulation import FloatArray, IntArray
+from solvers.surface.triangulation import FloatArray, IntArray
 
 
 def walk(

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from solvers.triangulation import BoolArray, FloatArray, IntArray
+from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,7 +17,7 @@ import numpy as np
 
 from solvers.layouts.charts import AXES, Chart, ComplexArray
 from solvers.layouts.nodes import Node, Starts
-from solvers.triangulation import (
+from solvers.surface.triangulation import (
     BoolArray,
     FloatArray,
     IntArray,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from solvers.crossfield import CrossField
+from solvers.fields.crossfield import CrossField
 from solvers.layouts.charts import QUARTER, Chart
 from solvers.layouts.connections import best_turn
 from solvers.layouts.crossings import crossings

@@ -16,7 +16,7 @@ from solvers.primitives.curved import (
 from solvers.primitives.flat import annulus, disk, l_shape, plate_with_holes, rectangle, square
 from solvers.primitives.genus import genus
 from solvers.primitives.planar import planar
-from solvers.surface import TriSurface
+from solvers.surface.trisurface import TriSurface
 
 BUILTIN: dict[str, Callable[..., TriSurface]] = {
     function.__name__: function

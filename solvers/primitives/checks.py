@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from solvers.errors import SurfaceError
-from solvers.validation import LARGEST
+from solvers.surface.validation import LARGEST
 
 MOST_VERTICES = 4_000_000
 

@@ -11,8 +11,8 @@ from solvers.errors import SurfaceError
 from solvers.primitives.checks import affordable, positive, whole
 from solvers.primitives.lattices import grid, rings, subdivide
 from solvers.primitives.planar import fill
-from solvers.surface import TriSurface
-from solvers.triangulation import FloatArray, IntArray
+from solvers.surface.triangulation import FloatArray, IntArray
+from solvers.surface.trisurface import TriSurface
 
 
 def sphere(subdivisions: int = 4, radius: float = 1.0) -> TriSurface:

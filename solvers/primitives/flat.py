@@ -10,8 +10,8 @@ from solvers.errors import SurfaceError
 from solvers.primitives.checks import affordable, positive, whole
 from solvers.primitives.lattices import grid, hexagon, rings
 from solvers.primitives.planar import planar
-from solvers.surface import TriSurface
-from solvers.triangulation import FloatArray
+from solvers.surface.triangulation import FloatArray
+from solvers.surface.trisurface import TriSurface
 
 
 def square(n: int = 32, size: float = 1.0) -> TriSurface:

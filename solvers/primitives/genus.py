@@ -6,8 +6,8 @@ import numpy as np
 import numpy.typing as npt
 
 from solvers.primitives.checks import affordable, whole
-from solvers.surface import TriSurface
-from solvers.triangulation import FloatArray, IntArray
+from solvers.surface.triangulation import FloatArray, IntArray
+from solvers.surface.trisurface import TriSurface
 
 
 def genus(handles: int = 2, subdivisions: int = 3) -> TriSurface:

@@ -12,8 +12,8 @@ from scipy.spatial import Delaunay, QhullError, cKDTree
 
 from solvers.errors import SurfaceError
 from solvers.primitives.checks import affordable, positive
-from solvers.surface import TriSurface
-from solvers.triangulation import FloatArray, IntArray
+from solvers.surface.triangulation import FloatArray, IntArray
+from solvers.surface.trisurface import TriSurface
 
 SMOOTHING = 20
 """Rounds of moving the interior points; the triangles hardly change after these."""

@@ -15,9 +15,9 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import breadth_first_order, connected_components
 
-from solvers.graphs import HalfedgeGraph, walk_back
 from solvers.layouts.tmesh import TMesh
-from solvers.triangulation import BoolArray, IntArray
+from solvers.surface.graphs import HalfedgeGraph, walk_back
+from solvers.surface.triangulation import BoolArray, IntArray
 
 MOST_CUTS = 50
 """Double edges that are looked at together."""

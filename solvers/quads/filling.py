@@ -15,7 +15,7 @@ from solvers.layouts.layout import QuadLayout
 from solvers.layouts.patches import grid_quads
 from solvers.layouts.straight import barycentric_in, walk
 from solvers.quads.quadmesh import QuadMesh
-from solvers.triangulation import BoolArray, FloatArray, IntArray
+from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
 
 
 def fill(layout: QuadLayout, counts: IntArray) -> QuadMesh:

@@ -10,7 +10,7 @@ from scipy.sparse import coo_array, csr_array, eye_array, hstack
 
 from solvers.layouts.tmesh import TMesh
 from solvers.quads.collapse import Cut
-from solvers.triangulation import FloatArray, IntArray
+from solvers.surface.triangulation import FloatArray, IntArray
 
 WINDOWS = (8.0, 64.0, np.inf)
 """How far from what is wanted counts are looked for; nearer ones are found much faster."""

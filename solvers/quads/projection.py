@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
-from solvers.surface import TriSurface, closest_barycentric
-from solvers.triangulation import FloatArray, IntArray
+from solvers.surface.triangulation import FloatArray, IntArray
+from solvers.surface.trisurface import TriSurface, closest_barycentric
 
 FARTHER = 1e-13
 """In diagonals of the surface: nearer by less than this is not nearer."""

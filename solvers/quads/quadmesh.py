@@ -11,8 +11,8 @@ from scipy.sparse.csgraph import connected_components
 
 from solvers.errors import CrossviewError
 from solvers.quads.projection import Projection
-from solvers.surface import TriSurface
-from solvers.triangulation import BoolArray, FloatArray, IntArray
+from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
+from solvers.surface.trisurface import TriSurface
 
 ON_EDGE = 1e-9
 """Weight of a corner below which a place is on the edge across."""

@@ -19,7 +19,7 @@ from solvers.layouts.tmesh import TMesh
 from solvers.quads.collapse import Cut
 from solvers.quads.integer_program import arcs_alone, offsets
 from solvers.quads.unbroken import hasty, unbroken
-from solvers.triangulation import IntArray
+from solvers.surface.triangulation import IntArray
 
 MOST_QUADS = 5_000_000
 """Finer meshes are not made."""

@@ -6,8 +6,8 @@ from functools import cached_property
 
 import numpy as np
 
-from solvers.surface import TriSurface
-from solvers.triangulation import BoolArray, FloatArray, IntArray
+from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
+from solvers.surface.trisurface import TriSurface
 
 SHARP = np.radians(30.0)
 """A rail that turns by more than this at a vertex has a corner there."""

@@ -9,7 +9,7 @@ import numpy as np
 from solvers.quads.projection import Projection
 from solvers.quads.quadmesh import QuadMesh, normals_at, scaled_jacobian
 from solvers.quads.rails import Rail
-from solvers.triangulation import FloatArray, IntArray
+from solvers.surface.triangulation import FloatArray, IntArray
 
 REACH = 0.4
 """Share of the gap to its neighbour on the rail that a vertex may cross in one step."""

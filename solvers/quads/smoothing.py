@@ -18,7 +18,7 @@ from solvers.quads.quadmesh import QuadMesh, normals_at
 from solvers.quads.rails import Rail, boundary_rails
 from solvers.quads.sliding import Places, Sliding
 from solvers.quads.untangling import POOR, improve_worst
-from solvers.triangulation import FloatArray, IntArray
+from solvers.surface.triangulation import FloatArray, IntArray
 
 ROUNDS = 30
 """How often all vertices move."""

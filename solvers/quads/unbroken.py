@@ -10,7 +10,7 @@ from scipy.sparse import csr_array
 from solvers.layouts.tmesh import TMesh
 from solvers.quads.collapse import Cut, broken, least_counts
 from solvers.quads.integer_program import arcs_alone, balances, nearest_counts
-from solvers.triangulation import FloatArray, IntArray
+from solvers.surface.triangulation import FloatArray, IntArray
 
 MOST_ROUNDS = 40
 """How often what the nearest counts break is ruled out, before longest arcs get an edge."""

@@ -6,7 +6,7 @@ import numpy as np
 
 from solvers.quads.quadmesh import QuadMesh
 from solvers.quads.sliding import Places, Sliding
-from solvers.triangulation import BoolArray, IntArray
+from solvers.surface.triangulation import BoolArray, IntArray
 
 POOR = 0.7
 """Quads of a lower quality are worked on."""

@@ -5,8 +5,8 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from solvers.primitives import BUILTIN
-from solvers.singularities import Singularity, default_corners
-from solvers.surface import TriSurface
+from solvers.singularities.budget import Singularity, default_corners
+from solvers.surface.trisurface import TriSurface
 
 SURFACES: dict[str, Callable[[], TriSurface]] = {
     "sphere": lambda: BUILTIN["sphere"](subdivisions=3),

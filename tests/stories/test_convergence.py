@@ -9,11 +9,11 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QPushButton
 
-from crossview.case import Case
-from crossview.gallery import path_of
+from crossview.cases.gallery import path_of
+from crossview.cases.model import Case
 from crossview.gui.panels.texts import BAD, GOOD, WAITING
 from crossview.gui.state import WindowState
-from crossview.scene.colors import valence_color
+from crossview.view.colors import valence_color
 from tests.windowing import Hand
 
 Cases = Callable[[str], str]

@@ -7,8 +7,8 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 
-from crossview.case import Case
-from crossview.scene.colors import FEATURE, PROBLEM
+from crossview.cases.model import Case
+from crossview.view.colors import FEATURE, PROBLEM
 from tests.windowing import count_color
 
 SPHERE = {

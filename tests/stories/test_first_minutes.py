@@ -6,7 +6,7 @@ import numpy as np
 from PIL import Image
 from PySide6.QtCore import QPointF, Qt
 
-from crossview.scene.colors import valence_color
+from crossview.view.colors import valence_color
 from tests.windowing import Hand, count_color
 
 BLUE, RED, ORANGE = valence_color(3), valence_color(5), valence_color(6)

@@ -9,11 +9,11 @@ import pyvista as pv
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 
-from crossview.case import Case
-from crossview.gallery import path_of
+from crossview.cases.gallery import path_of
+from crossview.cases.model import Case
 from crossview.gui.panels.quads import COUNT, LENGTH, NOTHING, STALE
 from crossview.gui.state import WindowState
-from crossview.scene.colors import CROSS, MARK_WARNING, PATCHES, QUAD_EDGE, valence_color
+from crossview.view.colors import CROSS, MARK_WARNING, PATCHES, QUAD_EDGE, valence_color
 from tests.windowing import Hand, count_color
 
 BLUE = valence_color(3)

@@ -8,7 +8,7 @@ import pytest
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtWidgets import QApplication
 
-from crossview.scene.colors import PROBLEM, valence_color
+from crossview.view.colors import PROBLEM, valence_color
 from tests.windowing import Hand
 
 BLUE, RED = valence_color(3), valence_color(5)

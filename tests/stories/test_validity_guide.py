@@ -9,7 +9,7 @@ from PySide6.QtGui import QEnterEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
-from crossview.scene.colors import condition_color
+from crossview.view.colors import condition_color
 from tests.windowing import Hand, count_color
 
 SHIFT = Qt.KeyboardModifier.ShiftModifier

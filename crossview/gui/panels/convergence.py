@@ -11,7 +11,7 @@ from crossview.gui.panels.energy_plot import EnergyPlot
 from crossview.gui.panels.texts import BAD, GOOD, UNSURE, WAITING, aspect, energies
 from crossview.gui.panels.validity import DOT
 from crossview.gui.state import WindowState
-from crossview.pipeline import Solution
+from crossview.workflow.pipeline import Solution
 
 COLORS = {"valid": GOOD, "suspect": UNSURE, "impossible": BAD}
 STOPPED = "Not converged: this is the last iterate before it was stopped."

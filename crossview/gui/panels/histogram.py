@@ -10,9 +10,9 @@ from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QWidget
 
 from crossview.gui.panels.texts import BAD, MINUS
-from crossview.scene.colors import color_table
-from crossview.scene.scalars import SCALARS
-from solvers.triangulation import FloatArray, IntArray
+from crossview.view.colors import color_table
+from crossview.view.scalars import SCALARS
+from solvers.surface.triangulation import FloatArray, IntArray
 
 BINS, STEP, LEAST_HEIGHT = 20, 0.1, 2.0
 """Bars, steps that the range begins at, and pixels that a bar with anything in it has."""

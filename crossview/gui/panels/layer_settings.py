@@ -19,8 +19,8 @@ from PySide6.QtWidgets import (
 
 from crossview.gui.workspace import Workspace
 from crossview.scene import LayerKind, LayerSettings
-from crossview.scene.colors import CYCLIC, DIVERGING, color_table
-from crossview.scene.scalars import SCALARS
+from crossview.view.colors import CYCLIC, DIVERGING, color_table
+from crossview.view.scalars import SCALARS
 
 STEPS = 100
 COLORINGS = {"quality": "Scaled Jacobian", "patch": "Patches", "plain": "Plain"}

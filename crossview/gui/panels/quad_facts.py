@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from crossview.gui.panels.texts import MINUS, count, grouped
-from crossview.pipeline import Solution
+from crossview.workflow.pipeline import Solution
 from solvers.layouts.layout import QuadLayout
 from solvers.quads.quadmesh import QuadMesh
 

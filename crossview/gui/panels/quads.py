@@ -27,8 +27,8 @@ from crossview.gui.panels.scrolling import scrolled
 from crossview.gui.panels.texts import BAD, GOOD
 from crossview.gui.panels.validity import DOT
 from crossview.gui.state import WindowState
-from crossview.meshing import DEFAULT_QUADS, MeshOptions
-from solvers.surface import TriSurface
+from crossview.workflow.quads import DEFAULT_QUADS, MeshOptions
+from solvers.surface.trisurface import TriSurface
 
 COUNT, LENGTH = range(2)
 MOST_QUADS = 1_000_000

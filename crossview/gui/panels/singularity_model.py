@@ -11,8 +11,8 @@ from crossview.gui.icons import dot_icon, icon
 from crossview.gui.panels.texts import position, signed
 from crossview.gui.state import WindowState
 from crossview.gui.workspace import Workspace
-from crossview.scene.colors import valence_color
-from solvers.singularities import Singularity
+from crossview.view.colors import valence_color
+from solvers.singularities.budget import Singularity
 
 NUMBER, VALENCE, INDEX, POSITION, LOCK = range(5)
 HEADERS = ("#", "Valence", "Index", "Position", "")

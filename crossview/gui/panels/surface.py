@@ -13,7 +13,7 @@ from crossview.gui.scene_view import poor_faces
 from crossview.gui.state import WindowState
 from crossview.gui.workspace import Workspace
 from crossview.session.document import Document
-from solvers.surface import TriSurface
+from solvers.surface.trisurface import TriSurface
 
 
 class Hovered(QLabel):

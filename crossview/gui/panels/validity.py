@@ -20,8 +20,8 @@ from crossview.gui.icons import dot_icon
 from crossview.gui.panels.texts import BAD, GOOD, WAITING, degrees, signed
 from crossview.gui.state import WindowState
 from crossview.gui.workspace import Workspace
-from crossview.scene.colors import condition_color
 from crossview.session.mending import Mending, mendings
+from crossview.view.colors import condition_color
 
 DOT = QSize(14, 14)
 BAR = 4

@@ -7,18 +7,18 @@ from functools import cache
 
 import numpy as np
 
-from solvers.aligned import IntegratedField, aligned_field
-from solvers.features import Features
-from solvers.integrable import anisotropic_field
-from solvers.isotropic import IsotropicSolver
+from solvers.features.edges import Features
+from solvers.features.sharp_edges import sharp_edges
+from solvers.fields.aligned import IntegratedField, aligned_field
+from solvers.fields.integrable import anisotropic_field
+from solvers.fields.isotropic import IsotropicSolver
 from solvers.layouts.layout import QuadLayout, quad_layout
-from solvers.points import SurfacePoint
 from solvers.primitives import BUILTIN
 from solvers.progress import run
-from solvers.refinement import refine_at
-from solvers.sharp_edges import sharp_edges
-from solvers.singularities import Singularity, default_corners
-from solvers.surface import TriSurface
+from solvers.singularities.budget import Singularity, default_corners
+from solvers.surface.points import SurfacePoint
+from solvers.surface.refinement import refine_at
+from solvers.surface.trisurface import TriSurface
 from tests.solvers.suite import separated
 
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from solvers.aligned import IntegratedField, aligned_field
 from solvers.errors import CrossviewError
-from solvers.isotropic import IsotropicSolver
+from solvers.fields.aligned import IntegratedField, aligned_field
+from solvers.fields.isotropic import IsotropicSolver
 from solvers.layouts.arrangement import arrange
 from solvers.layouts.crossings import crossings
 from solvers.layouts.errors import LayoutError
@@ -14,10 +14,11 @@ from solvers.layouts.nodes import singular_nodes, starts_at
 from solvers.layouts.stops import stops
 from solvers.layouts.tracing import NODE, trace
 from solvers.layouts.turning import joining_turn
+from solvers.maps.seamless import seamless_map
 from solvers.primitives import BUILTIN
 from solvers.progress import run
-from solvers.singularities import Singularity, default_corners
-from solvers.surface import TriSurface
+from solvers.singularities.budget import Singularity, default_corners
+from solvers.surface.trisurface import TriSurface
 from tests.solvers.layouts.fields import FIELDS, at_places, cube_corners, integrated, layout_of
 from tests.solvers.suite import random_configuration
 
@@ -201,4 +202,4 @@ def test_triangles_turned_over_are_named_with_the_singularities_near_them() -> N
     field = integrated(surface, at_places(surface, places, [3, 5]))
     with pytest.raises(LayoutError, match=r"turned over .* \(near singularity") as refused:
         run(quad_layout(field))
-    np.testing.assert_array_equal(refused.value.faces, field.seamless_map.flipped)
+    np.testing.assert_array_equal(refused.value.faces, seamless_map(field).flipped)

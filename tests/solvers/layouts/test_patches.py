@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from solvers.aligned import IntegratedField, aligned_field
-from solvers.isotropic import IsotropicSolver
+from solvers.fields.aligned import IntegratedField, aligned_field
+from solvers.fields.isotropic import IsotropicSolver
 from solvers.layouts.layout import QuadLayout, quad_layout
 from solvers.primitives import cube_sphere, square
 from solvers.progress import run
-from solvers.singularities import Singularity, default_corners
+from solvers.singularities.budget import Singularity, default_corners
 
 
 def layout_of(surface, singularities=()) -> QuadLayout:

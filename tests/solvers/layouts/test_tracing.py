@@ -3,17 +3,17 @@
 import numpy as np
 import pytest
 
-from solvers.isotropic import IsotropicSolver
+from solvers.fields.isotropic import IsotropicSolver
 from solvers.layouts.charts import Chart
 from solvers.layouts.crossings import crossings, ends_of
 from solvers.layouts.nodes import node_at, singular_nodes, starts_at
 from solvers.layouts.separatrices import field_separatrices
 from solvers.layouts.straight import barycentric_in, walk
 from solvers.layouts.tracing import BORDER, NODE, trace
-from solvers.points import SurfacePoint
 from solvers.primitives import BUILTIN
-from solvers.singularities import Singularity
-from solvers.surface import TriSurface
+from solvers.singularities.budget import Singularity
+from solvers.surface.points import SurfacePoint
+from solvers.surface.trisurface import TriSurface
 from tests.solvers.layouts.fields import FIELDS, at_places, layout_of
 
 

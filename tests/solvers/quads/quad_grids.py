@@ -10,7 +10,7 @@ from solvers.primitives import BUILTIN
 from solvers.quads.projection import Projection
 from solvers.quads.quadmesh import QuadMesh
 from solvers.quads.rails import boundary_rails
-from solvers.surface import TriSurface
+from solvers.surface.trisurface import TriSurface
 
 Array = npt.NDArray[np.float64]
 

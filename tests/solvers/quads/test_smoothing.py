@@ -9,7 +9,7 @@ from solvers.primitives import BUILTIN
 from solvers.quads.quadmesh import QuadMesh
 from solvers.quads.rails import Rail, boundary_rails
 from solvers.quads.smoothing import rectangles, smooth
-from solvers.surface import TriSurface
+from solvers.surface.trisurface import TriSurface
 from tests.solvers.quads.quad_grids import (
     GRIDS,
     annulus,

@@ -9,7 +9,7 @@ from scipy.sparse.csgraph import connected_components
 
 from solvers.layouts.tmesh import TMesh
 from solvers.quads.quadmesh import QuadMesh
-from solvers.surface import TriSurface
+from solvers.surface.trisurface import TriSurface
 
 Place = tuple[float, float]
 

@@ -1,0 +1,1 @@
+"""Cases: surface, singularities and options, as JSON files."""

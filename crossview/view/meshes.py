@@ -1,0 +1,67 @@
+"""From the solvers' separatrices, layouts and quad meshes to what the scene shows.
+
+Each is made once: the same value gives the same drawing, in which the scene sees no change.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import wraps
+from typing import TypeVar
+from weakref import WeakKeyDictionary
+
+import numpy as np
+
+from crossview.view.values import Curves, FloatArray, Quads
+from solvers.layouts.layout import QuadLayout
+from solvers.layouts.separatrices import Separatrices
+from solvers.quads.quadmesh import QuadMesh
+
+Source = TypeVar("Source")
+Drawing = TypeVar("Drawing")
+
+
+def _once(draw: Callable[[Source], Drawing]) -> Callable[[Source], Drawing]:
+    """Keep each drawing for as long as there is what it is of."""
+    drawn: WeakKeyDictionary[Source, Drawing] = WeakKeyDictionary()
+
+    @wraps(draw)
+    def kept(source: Source) -> Drawing:
+        if source not in drawn:
+            drawn[source] = draw(source)
+        return drawn[source]
+
+    return kept
+
+
+@_once
+def curves_of(separatrices: Separatrices) -> Curves:
+    """Return separatrices as curves to draw."""
+    return Curves(separatrices.points, separatrices.offsets, separatrices.valences)
+
+
+@_once
+def t_junctions_of(separatrices: Separatrices) -> FloatArray:
+    """Return (k, 3) where separatrices are cut at T-junctions."""
+    return separatrices.t_junctions
+
+
+@_once
+def patches_of(layout: QuadLayout) -> Quads:
+    """Return the sampled patches of a layout as quads to draw."""
+    sampled = layout.patch_mesh
+    return Quads(sampled.points, sampled.quads, sampled.patch, apart=True)
+
+
+@_once
+def quads_of(mesh: QuadMesh) -> Quads:
+    """Return a quad mesh to draw, its quality and inner irregular vertices with it."""
+    irregular = np.flatnonzero((mesh.valence != 4) & ~mesh.on_boundary)
+    return Quads(
+        mesh.vertices,
+        mesh.quads,
+        mesh.patch,
+        mesh.scaled_jacobian,
+        mesh.vertices[irregular],
+        mesh.valence[irregular],
+    )

@@ -1,0 +1,221 @@
+"""What the scene is asked to show: frozen values, no VTK."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+from typing import Any, Literal
+
+from crossview.view.values import (
+    Curves,
+    Elements,
+    FloatArray,
+    GuideLine,
+    IntArray,
+    Marker,
+    Quads,
+)
+from solvers.errors import CrossviewError
+
+Background = Literal["white", "dark", "transparent"]
+Coloring = Literal["quality", "patch", "plain"]
+
+
+@dataclass(frozen=True)
+class LayerSettings:
+    """How one layer is drawn; `LAYERS` says which of these a layer listens to.
+
+    Parameters
+    ----------
+    visible : bool
+        Whether the layer is drawn.
+    opacity : float
+        0 (nothing) to 1. For scalars: how much of their colour covers the grey surface.
+    color_map : str
+        A name of `colors.color_map_names()`; empty for the layer's own.
+    value_range : (float, float), optional
+        Colour limits, of the error density powers of 10; None: fitted to the data.
+    size : float
+        Factor on the automatic size of the glyphs, or on the width of the lines.
+    density : float
+        Factor on the automatic number of glyphs.
+    uniform : bool
+        Glyphs of one size instead of exp(H).
+    edges : bool
+        Whether edges are drawn: of triangles, of quads, of a layout those between its patches.
+    coloring : {"quality", "patch", "plain"}
+        What the colours of quads mean: scaled Jacobian, patch, nothing.
+    """
+
+    visible: bool = True
+    opacity: float = 1.0
+    color_map: str = ""
+    value_range: tuple[float, float] | None = None
+    size: float = 1.0
+    density: float = 1.0
+    uniform: bool = False
+    edges: bool = False
+    coloring: Coloring = "quality"
+
+
+@dataclass(frozen=True)
+class LayerKind:
+    """A layer's name (as on the command line), its label, and the settings it listens to."""
+
+    name: str
+    label: str
+    settings: tuple[str, ...] = ()
+    visible: bool = True
+    edges: bool = False
+
+    def defaults(self, visible: bool) -> LayerSettings:
+        """Return the settings it starts with."""
+        return LayerSettings(visible=visible, edges=self.edges)
+
+
+LAYERS: tuple[LayerKind, ...] = (
+    LayerKind("surface", "Surface", ("opacity", "edges")),
+    LayerKind("H", "H", ("opacity", "color_map", "value_range")),
+    LayerKind("theta", "Theta", ("opacity", "color_map"), visible=False),
+    LayerKind("H1", "H1", ("opacity", "color_map", "value_range"), visible=False),
+    LayerKind("H2", "H2", ("opacity", "color_map", "value_range"), visible=False),
+    LayerKind("aspect", "Aspect", ("opacity", "color_map", "value_range"), visible=False),
+    LayerKind("error", "Error density", ("opacity", "color_map", "value_range"), visible=False),
+    LayerKind("crosses", "Crosses", ("opacity", "size", "density", "uniform")),
+    LayerKind("separatrices", "Separatrices", ("opacity", "size")),
+    LayerKind("marks", "T and ! marks", ("size",)),
+    LayerKind("layout", "Layout", ("opacity", "edges", "size"), visible=False, edges=True),
+    LayerKind(
+        "quads",
+        "Quads",
+        ("coloring", "edges", "size", "value_range"),
+        visible=False,
+        edges=True,
+    ),
+    LayerKind("guide", "Validity guide", ("size",)),
+    LayerKind("singularities", "Singularities", ("size",)),
+    LayerKind("cut", "Cut graph", ("opacity", "size"), visible=False),
+    LayerKind("features", "Features", ("size",)),
+    LayerKind("boundary", "Boundary", ("size",)),
+    LayerKind("legend", "Valence legend"),
+    LayerKind("axes", "Axes"),
+)
+
+
+def default_layers() -> Mapping[str, LayerSettings]:
+    """Return the settings every layer starts with, by layer name."""
+    return MappingProxyType({kind.name: kind.defaults(kind.visible) for kind in LAYERS})
+
+
+def layers_named(names: Sequence[str]) -> Mapping[str, LayerSettings]:
+    """Return the default settings with only the layers of these names visible.
+
+    Raises
+    ------
+    CrossviewError
+        A name that no layer has.
+    """
+    known = [kind.name for kind in LAYERS]
+    for name in names:
+        if name not in known:
+            raise CrossviewError(f'no layer "{name}"', "layers", "choose from " + ", ".join(known))
+    return MappingProxyType({kind.name: kind.defaults(kind.name in names) for kind in LAYERS})
+
+
+@dataclass(frozen=True, eq=False)
+class SceneView:
+    """Everything the scene shows, as one value. What is None or empty is not drawn.
+
+    Arrays are compared by identity: never change one in place, make a new one.
+
+    Parameters
+    ----------
+    points : (n, 3) float, optional
+        Vertices of the surface; need not form a valid `TriSurface`.
+    faces : (m, 3) int, optional
+        Its triangles.
+    H : (n,) float, optional
+        Log of the size at the vertices, of two sizes the mean.
+    half_log_aspect : (m, 3) float, optional
+        (H2 - H1) / 2 at the corners of each face; None for one size.
+    error_density : (m,) float, optional
+        Square of the integrability error, by area.
+    u, v : (m, 3) float, optional
+        Unit directions of the cross at the faces' barycentres.
+    singularities : tuple of Marker
+        The singularities placed.
+    preview : Marker, optional
+        The dot that the add tool carries.
+    cut_graph : (k, 2) int, optional
+        Vertex pairs.
+    features : (k, 2) int, optional
+        Vertex pairs of edges that crosses are to follow.
+    missed : (k, 2) int, optional
+        Those of them on curves that the crosses do not follow.
+    loop : (k,) int, optional
+        Vertices of a path to point out (a holonomy condition's).
+    loop_color : str
+        Empty for its own.
+    guide : tuple of GuideLine
+        Where the singularity under the mouse may go.
+    problem : Elements, optional
+        Offending elements to point out.
+    separatrices : Curves, optional
+    t_junctions : (k, 3) float, optional
+        Where a limit cycle is cut: a "T" each.
+    misaligned : (k, 3) float, optional
+        On boundaries that the field is not aligned with: a "!" each.
+    layout : Quads, optional
+        The patches, finely sampled.
+    quads : Quads, optional
+        The quad mesh.
+    title : str
+        One line at the top left.
+    background : {"white", "dark", "transparent"}
+        Transparent is drawn as on white, without the white.
+    layers : mapping of str to LayerSettings
+        As `default_layers`; a layer that is missing is drawn with its defaults.
+    """
+
+    points: FloatArray | None = None
+    faces: IntArray | None = None
+    H: FloatArray | None = None
+    half_log_aspect: FloatArray | None = None
+    error_density: FloatArray | None = None
+    u: FloatArray | None = None
+    v: FloatArray | None = None
+    singularities: tuple[Marker, ...] = ()
+    preview: Marker | None = None
+    cut_graph: IntArray | None = None
+    features: IntArray | None = None
+    missed: IntArray | None = None
+    loop: IntArray | None = None
+    loop_color: str = ""
+    guide: tuple[GuideLine, ...] = ()
+    problem: Elements | None = None
+    separatrices: Curves | None = None
+    t_junctions: FloatArray | None = None
+    misaligned: FloatArray | None = None
+    layout: Quads | None = None
+    quads: Quads | None = None
+    title: str = ""
+    background: Background = "white"
+    layers: Mapping[str, LayerSettings] = field(default_factory=default_layers)
+
+    @property
+    def cover(self) -> str:
+        """What is drawn in place of the triangles, their scalar and (of quads) the crosses."""
+        for name, mesh in (("quads", self.quads), ("layout", self.layout)):
+            if mesh is not None and len(mesh.quads) and self.layer(name).visible:
+                return name
+        return ""
+
+    def layer(self, name: str) -> LayerSettings:
+        """Return the settings of a layer."""
+        return self.layers.get(name) or default_layers()[name]
+
+    def with_layer(self, name: str, **changes: Any) -> SceneView:
+        """Return this view with some settings of one layer changed."""
+        layers = {**self.layers, name: replace(self.layer(name), **changes)}
+        return replace(self, layers=MappingProxyType(layers))

@@ -1,0 +1,68 @@
+"""The surface of a case: made or read, and repaired."""
+
+from __future__ import annotations
+
+from crossview.cases.model import Builtin, Case
+from crossview.io import RawSurface, read_surface
+from solvers.errors import SurfaceError
+from solvers.primitives import BUILTIN
+from solvers.repair.soup import Repaired, repair, repair_each
+
+OPTIONS = {"repair the surface": "repair", "choose the largest": "component"}
+"""The option of a case that does what a remedy starting so says."""
+
+
+def load_surfaces(case: Case) -> tuple[Repaired, ...]:
+    """The surface of a case, or every component of it if the case asks for all.
+
+    Each comes with notes on what was changed to make it a surface.
+
+    Raises
+    ------
+    CrossviewError
+        It cannot be read or is none, or has several components and the case chooses none.
+    """
+    if isinstance(case.surface, Builtin):
+        name, parameters = case.surface.name, case.surface.parameters
+        if case.options.component not in (None, "all", "largest", 0):
+            raise SurfaceError(
+                f"there is no component {case.options.component}",
+                f"built-in {name}",
+                "a built-in surface has only one",
+            )
+        try:
+            return (Repaired(BUILTIN[name](**parameters)),)
+        except SurfaceError as error:
+            raise _explained(error, f"built-in {name}") from error
+    return mended(read_surface(case.surface), case)
+
+
+def mended(raw: RawSurface, case: Case) -> tuple[Repaired, ...]:
+    """What was read for a case, as the surface or surfaces it asks for."""
+    chosen, aggressive = case.options.component, case.options.repair
+    try:
+        if chosen == "all":
+            pieces = repair_each(raw.vertices, raw.faces, merge=raw.merge, aggressive=aggressive)
+        else:
+            pieces = (
+                repair(
+                    raw.vertices,
+                    raw.faces,
+                    merge=raw.merge,
+                    aggressive=aggressive,
+                    component=chosen,
+                ),
+            )
+    except SurfaceError as error:
+        raise _explained(error, str(case.surface)) from error
+    return tuple(Repaired(piece.surface, (*raw.notes, *piece.notes)) for piece in pieces)
+
+
+def _explained(error: SurfaceError, source: str) -> SurfaceError:
+    """The same error with the file it is about and the option that mends it."""
+    where = f"{source}, {error.where}" if error.where else source
+    remedy = error.remedy
+    for start, option in OPTIONS.items():
+        if remedy.startswith(start):
+            remedy += f" (option {option})"
+    return SurfaceError(error.what, where, remedy, error.elements, error.kind)

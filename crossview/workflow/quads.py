@@ -1,0 +1,277 @@
+"""From a solution to separatrices, quad layout and quad mesh."""
+
+from __future__ import annotations
+
+import contextlib
+import time
+from collections.abc import Generator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from crossview.workflow.solution import Solution
+from solvers.errors import CrossviewError
+from solvers.fields.aligned import IntegratedField, aligned_field
+from solvers.fields.crossfield import CrossField
+from solvers.fields.isotropic import IsotropicSolver
+from solvers.layouts.errors import LayoutError
+from solvers.layouts.layout import QuadLayout, quad_layout
+from solvers.layouts.separatrices import Separatrices, field_separatrices
+from solvers.progress import Progress, between, run
+from solvers.quads.filling import fill
+from solvers.quads.quadmesh import QuadMesh
+from solvers.quads.quantization import quantize, quantize_to
+from solvers.quads.smoothing import smooth
+from solvers.surface.triangulation import FloatArray, IntArray
+from solvers.surface.trisurface import TriSurface
+
+DEFAULT_QUADS = 5_000
+MOST_QUADS = 2_000_000
+"""More are not asked for but by a slip of the pen."""
+
+SOON = 50_000
+"""Triangles up to which a layout takes seconds at most."""
+
+ANISOTROPIC = "solve the anisotropic field (method anisotropic)"
+REMEDY = f"make the configuration valid (make-valid) or {ANISOTROPIC}"
+
+
+@dataclass(frozen=True)
+class MeshOptions:
+    """How fine the quads are, and what else is done to them.
+
+    Parameters
+    ----------
+    edge_length : float, optional
+        Mean length of their edges: the surface's area is divided by its square.
+    target_quads : int, optional
+        About how many; 5 000 if neither is given.
+    collapse : bool
+        Whether arcs of the layout may vanish, for coarse meshes of few patches.
+    smooth : bool
+        Whether vertices slide along the surface to better quads.
+
+    Raises
+    ------
+    CrossviewError
+        Both are given, or one is not above 0.
+    """
+
+    edge_length: float | None = None
+    target_quads: int | None = None
+    collapse: bool = False
+    smooth: bool = True
+
+    def __post_init__(self) -> None:
+        if self.edge_length is not None and self.target_quads is not None:
+            raise CrossviewError(
+                "both an edge length and a number of quads are wanted", "", "give one of them"
+            )
+        if self.edge_length is not None and not 0 < self.edge_length < np.inf:
+            raise CrossviewError("the edge length must be above 0", f"{self.edge_length:g}")
+        if self.target_quads is not None and self.target_quads < 1:
+            raise CrossviewError("the number of quads must be above 0", f"{self.target_quads}")
+
+    def number_on(self, surface: TriSurface) -> int:
+        """About how many quads these options make on a surface.
+
+        Raises
+        ------
+        CrossviewError
+            Too many, or edges longer than the surface.
+        """
+        if self.edge_length is None:
+            number = float(self.target_quads or DEFAULT_QUADS)
+        elif self.edge_length > surface.diagonal:
+            raise CrossviewError(
+                "the edge length is larger than the surface",
+                f"{self.edge_length:g} on a surface of {surface.diagonal:.3g}",
+                "give a smaller one",
+            )
+        else:
+            number = surface.area / self.edge_length**2
+        if number > MOST_QUADS:
+            asked = "" if self.edge_length is None else f"edge length {self.edge_length:g}"
+            raise CrossviewError(
+                f"{number:.2g} quads are too many", asked, f"at most {MOST_QUADS:,} are made"
+            )
+        return max(1, round(number))
+
+
+def separatrices(solution: Solution) -> Separatrices:
+    """The separatrices of a solution, kept once traced.
+
+    Those of its layout, exact, where it can have one and has it or gets it soon; else those of its
+    field, near and quick.
+
+    Parameters
+    ----------
+    solution : Solution
+    """
+    derived = solution.derived
+    soon = solution.surface.n_faces <= SOON and derived.separatrices is None
+    if derived.layout is None and soon:
+        with contextlib.suppress(CrossviewError):
+            run(layout(solution))
+    if derived.layout is not None:
+        return derived.layout.separatrices
+    if derived.separatrices is None:
+        derived.separatrices = field_separatrices(solution.field)
+    return derived.separatrices
+
+
+def turned_field(solution: Solution) -> CrossField:
+    """The field as the separatrices have it: where no boundary fixes it, its layout may turn it."""
+    layout = solution.derived.layout
+    if layout is None or layout.turned == 0:
+        return solution.field
+    return replace(solution.field, theta=solution.field.theta + layout.turned)
+
+
+def misaligned_boundaries(solution: Solution) -> tuple[IntArray, FloatArray]:
+    """The boundaries that the field is not aligned with.
+
+    Returns
+    -------
+    loops : (k,) int array
+        Numbers in ``solution.surface.boundary_loops``.
+    places : (k, 3) float array
+        A point on each, for a mark.
+    """
+    tolerance = np.radians(solution.problem.options.tolerance_degrees)
+    loops = np.flatnonzero(np.abs(solution.field.boundary_misalignment) > tolerance)
+    surface = solution.surface
+    first = np.array([surface.boundary_loops[i][0] for i in loops], dtype=np.int64)
+    return loops, surface.vertices[first].reshape(-1, 3)
+
+
+def layout(solution: Solution) -> Generator[Progress, None, QuadLayout]:
+    """Cut the surface of a solution into rectangles along its separatrices; kept once made.
+
+    Raises
+    ------
+    LayoutError
+        The field misses a boundary or is not integrable, there is no quad mesh with these
+        singularities, or triangles are turned over in the map.
+    """
+    derived = solution.derived
+    if derived.layout is None:
+        _require_possible(solution)
+        yield Progress("aligning with the boundaries", 0.0)
+        integrated = _integrated(solution)
+        derived.layout = yield from quad_layout(integrated)
+    return derived.layout
+
+
+def mesh(layout: QuadLayout, options: MeshOptions) -> Generator[Progress, None, QuadMesh]:
+    """Fill a layout with quads.
+
+    Parameters
+    ----------
+    layout : QuadLayout
+    options : MeshOptions
+
+    Raises
+    ------
+    CrossviewError
+        The options do not fit the surface, a singularity has valence 1, or no numbers of quads were
+        found in time.
+    """
+    surface, tmesh = layout.surface, layout.tmesh
+    number = options.number_on(surface)
+    _require_closing(layout.integrated.field)
+    yield Progress("choosing numbers of quads", 0.0)
+    if options.edge_length is None:
+        chosen = quantize_to(tmesh, number, collapse=options.collapse)
+    else:
+        # the map is not as large as the surface
+        scale = np.sqrt(tmesh.area / surface.area)
+        chosen = quantize(tmesh, options.edge_length * scale, collapse=options.collapse)
+    yield Progress("filling the patches", 0.3)
+    filled = fill(layout, chosen.counts)
+    if options.smooth:
+        yield Progress("smoothing", 0.5)
+        features = layout.integrated.aligned.integrability.discretization.features
+        filled = smooth(filled, curves=[curve.vertices for curve in features.curves])
+    yield Progress("checking the quads", 0.9)
+    filled.check()
+    return filled
+
+
+def quads_of(
+    solution: Solution, options: MeshOptions
+) -> Generator[Progress, None, tuple[Solution, QuadMesh]]:
+    """Make the layout and the quads of a solution.
+
+    Parameters
+    ----------
+    solution : Solution
+    options : MeshOptions
+
+    Returns
+    -------
+    Solution
+        The same, with the seconds of the two stages.
+    QuadMesh
+
+    Raises
+    ------
+    CrossviewError
+        As `layout` and `mesh`; what is wrong with the options is told before anything is made.
+    """
+    options.number_on(solution.surface)
+    start = time.perf_counter()
+    made = yield from between(layout(solution), 0.0, 0.5)
+    middle = time.perf_counter()
+    quads = yield from between(mesh(made, options), 0.5, 1.0)
+    seconds = {"layout": middle - start, "quads": time.perf_counter() - middle}
+    return replace(solution, seconds={**solution.seconds, **seconds}), quads
+
+
+def _require_possible(solution: Solution) -> None:
+    """Refuse what no map can mend; the layout itself judges integrability."""
+    loops, _ = misaligned_boundaries(solution)
+    if len(loops):
+        misses = "a boundary" if len(loops) == 1 else f"{len(loops)} boundaries"
+        raise _misses(misses, solution.field.boundary_misalignment, REMEDY)
+    if solution.verdict.status == "impossible":
+        reason, mendable, _ = solution.verdict.reason.rstrip(".").partition("; ")
+        raise LayoutError(f"no quads: {reason}", "", REMEDY if mendable else "")
+    off = np.abs(np.degrees(solution.field.feature_misalignment))
+    missed = np.count_nonzero(off > solution.problem.options.tolerance_degrees)
+    if missed:
+        misses = "a feature curve" if missed == 1 else f"{missed} feature curves"
+        raise _misses(misses, solution.field.feature_misalignment, ANISOTROPIC)
+
+
+def _require_closing(field: CrossField) -> None:
+    """Refuse a valence 1: both sides of its quad would be one edge."""
+    lone = [i for i, s in enumerate(field.singularities, start=1) if s.valence == 1]
+    if lone:
+        raise CrossviewError(
+            "no quad closes around a valence 1",
+            f"singularity {', '.join(map(str, lone))}",
+            "take valence 2 or more there, such as a 2 and a 3 (split)",
+        )
+
+
+def _misses(what: str, angles: FloatArray, remedy: str) -> LayoutError:
+    worst = np.degrees(np.abs(angles).max())
+    return LayoutError(f"the field misses {what}, by up to {worst:.3g} degrees", "", remedy)
+
+
+def _integrated(solution: Solution) -> IntegratedField:
+    """The field in a form that has a map; an isotropic one may have to be solved again."""
+    if solution.integrated is not None:
+        return solution.integrated
+    solver = solution.solver
+    if solver.discretization.delaunay.n_flips:  # the map lives on the surface's own triangles
+        corners = solution.problem.chosen_corners
+        features = solution.features
+        made = IsotropicSolver(solution.surface, corners, flips=False, features=features)
+        solver = made
+        if solver.may_turn:  # each triangulation has its own direction to start from
+            found = made.solve(solution.singularities).theta - solution.field.theta
+            solver = made.turned(-float(np.angle(np.exp(4j * found).mean())) / 4)
+    aligned = aligned_field(solver, solution.singularities)
+    return IntegratedField(aligned, aligned.start)

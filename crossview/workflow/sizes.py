@@ -1,0 +1,81 @@
+"""Size maps: wanted quad sizes, one or two for each vertex of the surface given."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+
+import numpy as np
+
+from crossview.cases.json_values import CaseError
+from crossview.cases.model import Sizes
+from solvers.surface.refinement import Refinement
+from solvers.surface.triangulation import FloatArray
+from solvers.surface.trisurface import barycentric
+
+
+def read_sizes(sizes: Sizes, n_vertices: int) -> FloatArray:
+    """The sizes that a case names or lists.
+
+    Parameters
+    ----------
+    sizes : str or tuple
+        A .npy or .txt file, or a size or a pair of sizes for each vertex.
+    n_vertices : int
+        Of the surface given, before any refinement.
+
+    Returns
+    -------
+    (n_vertices,) or (n_vertices, 2) float array
+
+    Raises
+    ------
+    CaseError
+        The file cannot be read, or does not hold positive finite sizes for these vertices.
+    """
+    name = sizes if isinstance(sizes, str) else "options.sizes"
+    values = _read(sizes) if isinstance(sizes, str) else np.array(sizes, dtype=float)
+    if values.shape not in ((n_vertices,), (n_vertices, 2)):
+        shape = " x ".join(map(str, values.shape))
+        raise CaseError(
+            f"the size map has {shape} values for {n_vertices} vertices",
+            name,
+            "give one or two sizes for each vertex",
+        )
+    wrong = np.flatnonzero(~(np.isfinite(values) & (values > 0)).reshape(n_vertices, -1).all(1))
+    if wrong.size:
+        raise CaseError(
+            "a size that is not positive and finite"
+            + (f", and {wrong.size - 1} more" if wrong.size > 1 else ""),
+            f"{name}, vertex {wrong[0]}",
+            "mend the size map",
+        )
+    return values
+
+
+def _read(name: str) -> FloatArray:
+    path = Path(name)
+    try:
+        if path.suffix.lower() == ".npy":
+            values = np.load(path, allow_pickle=False)
+        else:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # an empty file is told by its length
+                values = np.loadtxt(path)
+        if not np.issubdtype(values.dtype, np.number) or np.iscomplexobj(values):
+            raise ValueError
+        return np.asarray(values, dtype=float)
+    except OSError as error:
+        raise CaseError(f"cannot read the size map, {error.strerror or error}", name) from error
+    except (ValueError, EOFError) as error:
+        raise CaseError("the size map is not an array of numbers", name) from error
+
+
+def refined_sizes(sizes: FloatArray, refinement: Refinement) -> FloatArray:
+    """The sizes at a refined surface's vertices: their logarithms are linear in each triangle."""
+    coarse, surface = refinement.coarse, refinement.surface
+    face = np.empty(surface.n_vertices, dtype=np.int64)
+    face[surface.faces] = refinement.parent_face[:, None]
+    weights = barycentric(coarse.vertices[coarse.faces[face]], surface.vertices)
+    corners = np.log(sizes)[coarse.faces[face]]
+    return np.asarray(np.exp(np.einsum("nc,nc...->n...", weights, corners)))

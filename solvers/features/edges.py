@@ -1,0 +1,275 @@
+"""Feature edges: sharp or marked edges inside a surface that crosses are to follow.
+
+Features form a network of curves. A curve ends where other than two of its edges meet, on the
+boundary, and where it turns so sharply that quads beside it turn a corner.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.sparse import coo_array, csr_array
+from scipy.sparse.csgraph import connected_components, depth_first_order
+
+from solvers.singularities.budget import TIE
+from solvers.surface.refinement import Refinement
+from solvers.surface.triangulation import FloatArray, IntArray, next_halfedge, previous_halfedge
+from solvers.surface.trisurface import TriSurface, barycentric
+
+ON_SIDE = 1e-7
+"""Weight of a corner of a triangle below which a place lies on the side opposite."""
+
+NARROW = np.radians(30)
+"""Angle between two features that leaves no room for a quad."""
+
+SHARP_TURN = np.pi / 4 * (1 + TIE)
+"""By how much a curve may turn at a vertex and still go on, radians."""
+
+
+@dataclass(frozen=True, eq=False)
+class FeatureCurve:
+    """A smooth piece of a feature network.
+
+    Parameters
+    ----------
+    members : (k,) int array
+        Its edges in order, as positions in `Features.edges`.
+    vertices : (k + 1,) int array
+        Its vertices in order; the first again at the end if closed.
+    """
+
+    members: IntArray
+    vertices: IntArray
+
+    @property
+    def closed(self) -> bool:
+        """Whether it ends where it starts."""
+        return bool(self.vertices[0] == self.vertices[-1])
+
+
+@dataclass(frozen=True, eq=False)
+class Features:
+    """Feature edges of a surface.
+
+    Parameters
+    ----------
+    surface : TriSurface
+        Where.
+    edges : (k,) int array
+        Their numbers among the surface's edges, ascending; none on the boundary.
+    """
+
+    surface: TriSurface
+    edges: IntArray
+
+    def __len__(self) -> int:
+        """Return how many there are."""
+        return len(self.edges)
+
+    @property
+    def halfedges(self) -> IntArray:
+        """(k,) one halfedge of each."""
+        return self.surface.triangulation.edge_halfedges[self.edges]
+
+    @cached_property
+    def ends(self) -> IntArray:
+        """(k, 2) end vertices of each."""
+        return self.surface.edges[self.edges]
+
+    @cached_property
+    def degrees(self) -> IntArray:
+        """(n,) number of feature edges at each vertex."""
+        return np.bincount(self.ends.reshape(-1), minlength=self.surface.n_vertices)
+
+    @cached_property
+    def sectors(self) -> tuple[IntArray, FloatArray, IntArray]:
+        """What features and boundary cut the neighbourhoods of vertices into.
+
+        The sector of each halfedge's first corner (3 m,), the angle of each sector and its vertex.
+        """
+        t = self.surface.triangulation
+        blocked = t.twin < 0
+        blocked[self.halfedges] = blocked[t.twin[self.halfedges]] = True
+        h = np.flatnonzero(~blocked)
+        graph = coo_array(
+            (np.ones(len(h), dtype=np.int8), (h, next_halfedge(t.twin[h]))),
+            shape=(len(blocked), len(blocked)),
+        )
+        label = connected_components(graph, directed=False)[1]
+        sector = np.asarray(label, dtype=np.int64)
+        angle = np.asarray(np.bincount(sector, t.angles.reshape(-1)), dtype=np.float64)
+        vertex = np.empty(len(angle), dtype=np.int64)
+        vertex[sector] = t.tail
+        return sector, angle, vertex
+
+    @cached_property
+    def turns(self) -> FloatArray:
+        """(n,) by how much the features turn at vertices where two of them meet, else 0; radians.
+
+        Half the difference of the angles on both sides: what is left when a cone is unfolded.
+        """
+        _, angle, vertex = self.sectors
+        passed = (self.degrees == 2) & ~self.surface.boundary_vertices
+        of_passed = np.flatnonzero(passed[vertex])
+        by_vertex = of_passed[np.argsort(vertex[of_passed], kind="stable")]
+        one, other = by_vertex[::2], by_vertex[1::2]
+        turn = np.zeros(self.surface.n_vertices)
+        turn[vertex[one]] = np.abs(angle[one] - angle[other]) / 2
+        return turn
+
+    @cached_property
+    def corners(self) -> IntArray:
+        """Vertices where curves end: ends, junctions, sharp turns, and those on the boundary."""
+        passed = (self.degrees == 2) & ~self.surface.boundary_vertices & (self.turns < SHARP_TURN)
+        return np.flatnonzero((self.degrees > 0) & ~passed)
+
+    @cached_property
+    def curves(self) -> tuple[FeatureCurve, ...]:
+        """The smooth pieces; closed ones start where they turn most."""
+        if len(self.edges) == 0:
+            return ()
+        links, at = self._links()
+        order, label = _along_chains(len(self.edges), links, self.turns[at])
+        starts = np.flatnonzero(np.diff(label[order], prepend=-1) != 0)
+        return tuple(self._curve(members) for members in np.split(order, starts[1:]))
+
+    @cached_property
+    def curve_of(self) -> IntArray:
+        """(k,) the curve that each edge is part of."""
+        number = np.empty(len(self.edges), dtype=np.int64)
+        for i, curve in enumerate(self.curves):
+            number[curve.members] = i
+        return number
+
+    def curves_at(self, faces: IntArray, barycentric: FloatArray) -> IntArray:
+        """Return the curve that places in triangles lie on, or -1.
+
+        Parameters
+        ----------
+        faces : (n,) int array
+            The triangles.
+        barycentric : (n, 3) float array
+            Weights of their corners.
+        """
+        curve = np.full(len(self.surface.edges), -1, dtype=np.int64)
+        curve[self.edges] = self.curve_of
+        # A side is opposite the corner before it.
+        on_side = barycentric[:, [2, 0, 1]] < ON_SIDE
+        found = np.where(on_side, curve[self.surface.face_edges[faces]], -1)
+        return np.asarray(found.max(axis=1))
+
+    def _links(self) -> tuple[IntArray, IntArray]:
+        """Return pairs (l, 2) of edges that follow each other, and the vertices between them."""
+        vertex = self.ends.reshape(-1)
+        is_corner = np.zeros(self.surface.n_vertices, dtype=bool)
+        is_corner[self.corners] = True
+        passing = np.flatnonzero(~is_corner[vertex])
+        passing = passing[np.argsort(vertex[passing], kind="stable")]
+        return (passing // 2).reshape(-1, 2), vertex[passing[::2]]
+
+    def _curve(self, members: IntArray) -> FeatureCurve:
+        ends = self.ends[members]
+        if len(members) == 1:
+            return FeatureCurve(members, ends[0])
+        shared = (ends[:-1, :, None] == ends[1:, None, :]).any(axis=2)
+        between = ends[:-1][shared]
+        first = ends[0][~shared[0]]
+        last = ends[-1][ends[-1] != between[-1]]
+        return FeatureCurve(members, np.concatenate([first, between, last]))
+
+    def united(self, edges: IntArray) -> Features:
+        """Return these and further edges; those on the boundary are left out."""
+        inner = edges[self.surface.edge_faces[edges, 1] >= 0]
+        return Features(self.surface, np.union1d(self.edges, inner))
+
+    def without_spurs(self) -> Features:
+        """Return the features less curves that leave a longer one at too sharp an angle.
+
+        No quad fits between two curves that are next to parallel where they meet.
+        """
+        features = self
+        while len(spurs := features._spurs()):
+            kept = ~np.isin(features.curve_of, spurs)
+            features = Features(self.surface, features.edges[kept])
+        return features
+
+    def _spurs(self) -> IntArray:
+        """Return the curves that are the shorter side of a narrow sector."""
+        sector, angle, _ = self.sectors
+        t = self.surface.triangulation
+        curve = np.full(len(t.twin), -1, dtype=np.int64)
+        curve[self.halfedges] = curve[t.twin[self.halfedges]] = self.curve_of
+        # A sector reaches from the halfedge that starts it to the twin of that which ends it.
+        start, end = curve, curve[previous_halfedge(np.arange(len(curve)))]
+        sides = np.full((2, len(angle)), -1, dtype=np.int64)
+        for side, found in zip(sides, (start, end), strict=True):
+            side[sector[found >= 0]] = found[found >= 0]
+        narrow = (angle < NARROW) & (sides >= 0).all(axis=0) & (sides[0] != sides[1])
+        pairs = sides[:, narrow]
+        lengths = t.lengths.reshape(-1)[self.halfedges]
+        length = np.bincount(self.curve_of, lengths, len(self.curves))
+        return np.unique(np.where(length[pairs[0]] < length[pairs[1]], pairs[0], pairs[1]))
+
+    def refined(self, refinement: Refinement) -> Features:
+        """Return the same features on a refined surface: refinement splits edges, no more.
+
+        Parameters
+        ----------
+        refinement : Refinement
+            Of `surface`.
+        """
+        if len(self.edges) == 0 or refinement.surface is self.surface:
+            return Features(refinement.surface, self.edges)
+        fine, parent = refinement.surface, refinement.parent_face
+        left, right = fine.edge_faces.T
+        between = np.flatnonzero((right >= 0) & (parent[left] != parent[right]))
+        # An edge between parts of two triangles lies on the side that its middle is nearest to.
+        middle = fine.vertices[fine.edges[between]].mean(axis=1)
+        face = parent[left[between]]
+        corners = self.surface.vertices[self.surface.faces[face]]
+        side = (np.argmin(barycentric(corners, middle), axis=1) + 1) % 3
+        on_feature = np.isin(self.surface.face_edges[face, side], self.edges)
+        return Features(fine, between[on_feature])
+
+
+def no_features(surface: TriSurface) -> Features:
+    """Return the empty network.
+
+    Parameters
+    ----------
+    surface : TriSurface
+        Where.
+    """
+    return Features(surface, np.empty(0, dtype=np.int64))
+
+
+def _along_chains(n: int, links: IntArray, turn: FloatArray) -> tuple[IntArray, IntArray]:
+    """Order n edges along the chains that links (l, 2) make of them.
+
+    A closed chain is opened at the link with the largest turn. Returns the edges chain by chain,
+    and the number of each one's chain.
+    """
+    label = _components(n, links)
+    closed = np.bincount(label[links[:, 0]], minlength=n) == np.bincount(label, minlength=n)
+    by_turn = np.lexsort((turn, label[links[:, 0]]))
+    sharpest = by_turn[np.flatnonzero(np.diff(label[links[by_turn, 0]], append=-1) != 0)]
+    opened = sharpest[closed[label[links[sharpest, 0]]]]
+    links = np.delete(links, opened, axis=0)
+    degree = np.bincount(links.reshape(-1), minlength=n)
+    ends = np.flatnonzero(degree < 2)
+    _, first = np.unique(label[ends], return_index=True)
+    roots = ends[first]
+    # One search from a root joined to an end of each chain runs along one after the other.
+    rows = np.concatenate([links[:, 0], links[:, 1], np.full(len(roots), n)])
+    columns = np.concatenate([links[:, 1], links[:, 0], roots])
+    graph = csr_array((np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(n + 1, n + 1))
+    order = depth_first_order(graph, n, return_predecessors=False)[1:]
+    return order.astype(np.int64), label
+
+
+def _components(n: int, links: IntArray) -> IntArray:
+    ones = np.ones(len(links), dtype=np.int8)
+    graph = coo_array((ones, (links[:, 0], links[:, 1])), shape=(n, n))
+    return connected_components(graph, directed=False)[1].astype(np.int64)

@@ -1,0 +1,62 @@
+"""Sharp edges: where a surface bends by more than an angle."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from solvers.features.edges import no_features
+from solvers.surface.triangulation import FloatArray, IntArray
+from solvers.surface.trisurface import TriSurface
+
+FLAT = np.radians(160)
+"""Largest angle of a triangle that is next to flat."""
+
+
+def dihedral_angles(surface: TriSurface) -> FloatArray:
+    """Return by how much the surface bends over each edge.
+
+    Parameters
+    ----------
+    surface : TriSurface
+        The surface.
+
+    Returns
+    -------
+    (ne,) float array
+        Angle between the normals of both triangles, radians; 0 on the boundary.
+    """
+    left, right = surface.edge_faces.T
+    one, other = surface.face_normals[left], surface.face_normals[right]
+    sine = np.linalg.norm(np.cross(one, other), axis=1)
+    angle = np.arctan2(sine, (one * other).sum(axis=1))
+    return np.where(right >= 0, angle, 0.0)
+
+
+def sharp_edges(surface: TriSurface, degrees: float) -> IntArray:
+    """Return the edges over which the surface bends by more than an angle.
+
+    The normal of a next to flat triangle means little: where its longest edge is sharp, the two
+    others are not. Curves of sharp edges that leave a longer one at too sharp an angle are left
+    out, as `Features.without_spurs`.
+
+    Parameters
+    ----------
+    surface : TriSurface
+        The surface.
+    degrees : float
+        The angle.
+
+    Returns
+    -------
+    (k,) int array
+        Among the surface's edges.
+    """
+    sharp = dihedral_angles(surface) > np.radians(degrees)
+    angles = surface.triangulation.angles
+    flat = np.flatnonzero(angles.max(axis=1) > FLAT)
+    longest = (np.argmax(angles[flat], axis=1) + 1) % 3
+    edges = surface.face_edges[flat]
+    along = edges[np.arange(len(flat)), longest]
+    over = edges[sharp[along]].reshape(-1)
+    sharp[np.setdiff1d(over, along)] = False
+    return no_features(surface).united(np.flatnonzero(sharp)).without_spurs().edges

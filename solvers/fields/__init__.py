@@ -1,0 +1,1 @@
+"""Cross-fields: isotropic, aligned, anisotropic, natural, and what they are worth."""

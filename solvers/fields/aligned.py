@@ -1,0 +1,187 @@
+"""The field aligned with every boundary and feature: theta imposed, integrable or not.
+
+The paper solves for theta with known values on all boundaries and known jumps over the cut (section
+"Local manifold basis generation and theta initialization"). The holonomy potentials already hold
+the answer: the harmonic correction that takes the defects to zero. With features a single-valued
+turn is added that aligns the field with them too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from solvers.errors import CrossviewError
+from solvers.fields.connection import QUARTER
+from solvers.fields.crossfield import Convergence, CrossField
+from solvers.fields.feature_alignment import align_with_features
+from solvers.fields.integrability import Integrability
+from solvers.fields.isotropic import IsotropicSolver
+from solvers.singularities.budget import Singularity
+from solvers.surface.triangulation import FloatArray, IntArray
+
+FORCED = np.radians(60)
+"""By how much the corners of quads may miss the angle they fill on a feature."""
+
+AS_IT_IS = Convergence()
+"""Of a field that no iteration changed."""
+
+
+@dataclass(frozen=True, eq=False)
+class AlignedField:
+    """A field aligned with boundaries and features, and the integrability problem around it.
+
+    Parameters
+    ----------
+    isotropic : CrossField
+        The isotropic field of the same configuration.
+    correction : (m, 3) float array
+        Corner values of the harmonic correction that aligns it.
+    integrability : Integrability
+        With the aligned field as its initial field.
+    turns : tuple of int
+        Quarter turns over each condition's path, besides those nearest to the isotropic field.
+    turned : (m, 3) float array, optional
+        What aligns it with features, or by how much the solver turns all crosses; None for
+        neither.
+    """
+
+    isotropic: CrossField
+    correction: FloatArray
+    integrability: Integrability
+    turns: tuple[int, ...]
+    turned: FloatArray | None = None
+
+    def partly(self, fraction: float) -> Integrability:
+        """Return the problem around the field with only a fraction of the correction."""
+        i = self.integrability
+        conjugate = self.isotropic.H[i.triangulation.faces] + fraction * self.correction
+        turned = None if self.turned is None else fraction * self.turned
+        return Integrability(i.discretization, conjugate, i.quarter_turns, i.features, turned)
+
+    @cached_property
+    def forced_corners(self) -> IntArray:
+        """Regular vertices of features where quads meet in another number than the angles ask for.
+
+        There the singularities on both sides of a curve do not fit it.
+        """
+        i = self.integrability
+        t, features = i.triangulation, i.discretization.features
+        sector, angle, vertex = features.sectors
+        # Over a corner, edge to edge, the crosses turn as from one midpoint to the other.
+        turned = t.angles - (i.offsets[:, [2, 0, 1]] - i.offsets)
+        off = np.abs(np.bincount(sector, turned.reshape(-1)) - angle)
+        regular = features.degrees > 0
+        faces = self.isotropic.surface.faces
+        for s in self.isotropic.singularities:
+            regular[faces[s.point.face, int(np.argmax(s.point.barycentric))]] = False
+        return np.unique(vertex[(off > FORCED) & regular[vertex]])
+
+    @property
+    def start(self) -> FloatArray:
+        """The unknowns of the aligned field with the isotropic size for both scales."""
+        x = np.zeros(self.integrability.assembly.n)
+        x[: len(self.isotropic.H)] = -self.isotropic.H
+        return x
+
+
+@dataclass(frozen=True, eq=False)
+class IntegratedField:
+    """A point of the integrability problem around an aligned field: the field itself, or solved.
+
+    Parameters
+    ----------
+    aligned : AlignedField
+        The problem.
+    x : (N,) float array
+        Its unknowns.
+    method : str
+        The solver's name.
+    convergence : Convergence
+        How it came to `x`.
+    """
+
+    aligned: AlignedField
+    x: FloatArray
+    method: str = "aligned"
+    convergence: Convergence = AS_IT_IS
+
+    @cached_property
+    def field(self) -> CrossField:
+        """The crosses, sizes and errors."""
+        i, x = self.aligned.integrability, self.x
+        d, t = i.discretization, i.triangulation
+        a, s, delta = i.local(x)
+        theta = i.theta + delta.mean(axis=1)
+        # The turning is affine in each triangle; its value at midpoints less the barycentre's.
+        offsets = i.offsets + delta - delta.mean(axis=1)[:, None]
+        density = (i.residual(x).values ** 2).sum(axis=1) / t.areas
+        h = -x[: t.n_vertices]
+        mean = -(t.areas @ a.mean(axis=1)) / t.areas.sum()
+        none = np.zeros(len(d.conditions))
+        return replace(
+            self.aligned.isotropic,
+            method=self.method,
+            H=h - mean,
+            theta=theta,
+            defects=d.defects(theta, offsets),
+            boundary_misalignment=d.boundary_misalignment(theta, offsets),
+            max_closing_error=d.max_closing_error(theta, offsets, none),
+            feature_misalignment=d.feature_misalignment(theta, offsets),
+            half_log_aspect=s,
+            error_density=density,
+            convergence=self.convergence,
+        )
+
+
+def aligned_field(
+    solver: IsotropicSolver,
+    singularities: Sequence[Singularity],
+    turns: Sequence[int] | None = None,
+) -> AlignedField:
+    """Align the field of a configuration with every boundary, handle and feature.
+
+    Parameters
+    ----------
+    solver : IsotropicSolver
+        Made without flips, so that the field lives on the surface's own triangles.
+    singularities : sequence of Singularity
+        At vertices.
+    turns : sequence of int, optional
+        Quarter turns to add over each condition's path; by default none, which is the multiple
+        nearest to the isotropic rotation; with features those that leave the field smoothest.
+        Others are different layouts.
+
+    Returns
+    -------
+    AlignedField
+
+    Raises
+    ------
+    CrossviewError
+        If `turns` has the wrong length.
+    SingularityError
+        As `IsotropicSolver.solve`.
+    """
+    field, d = solver.solve(singularities), solver.discretization
+    if turns is not None and len(turns) != len(field.defects):
+        raise CrossviewError(
+            f"{len(turns)} turns are given for {len(field.defects)} holonomy conditions",
+            "turns",
+            "give one whole number for each condition",
+        )
+    conjugate, turned = field.H[solver.surface.faces], None
+    if len(d.features):
+        found = align_with_features(solver.holonomy, conjugate, field.defects, turns)
+        turns, turned = found.turns.tolist(), found.turned
+    elif solver.turn:
+        turned = np.full(conjugate.shape, solver.turn)
+    chosen = tuple(turns or [0] * len(field.defects))
+    correction = solver.holonomy.harmonic_correction(QUARTER * np.array(chosen) - field.defects)
+    integrability = Integrability(
+        d, conjugate + correction, features=d.feature_halfedges, turned=turned
+    )
+    return AlignedField(field, correction, integrability, chosen, turned)

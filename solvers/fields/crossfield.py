@@ -1,0 +1,139 @@
+"""The result of every solver: a cross-field with its scales and its own consistency measure."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from solvers.singularities.budget import Singularity
+from solvers.surface.triangulation import FloatArray
+from solvers.surface.trisurface import TriSurface
+
+
+@dataclass(frozen=True)
+class Convergence:
+    """How an iteration for E = 0 went.
+
+    Parameters
+    ----------
+    energies : tuple of float
+        E at the start and after each iteration.
+    converged : bool
+        Whether the iteration reached its goal; if not, the field is the best iterate.
+    """
+
+    energies: tuple[float, ...] = ()
+    converged: bool = True
+
+
+@dataclass(frozen=True, eq=False)
+class CrossField:
+    """A cross in each triangle of a surface.
+
+    Parameters
+    ----------
+    surface : TriSurface
+        Where.
+    singularities : tuple of Singularity
+        The imposed configuration.
+    corners : mapping of int to int
+        Index of each boundary vertex where the field turns.
+    method : str
+        The solver's name.
+    H : (n,) float array
+        Logarithm of the size at each vertex, with area-weighted mean zero (paper, L = e^H).
+    theta : (m,) float array
+        Angle of u at each barycentre against the triangle's first edge, radians.
+    defects : (2 g + max(b - 1, 0),) float array
+        Holonomy defect of each condition of the surface, radians in (-pi/4, pi/4].
+    boundary_misalignment : (b,) float array
+        Largest angle between the crosses and each boundary loop, with sign, radians.
+    residual : float
+        Largest residual of the system for H, relative to its terms.
+    max_closing_error : float
+        Largest angle, over all edges, by which the crosses of two triangles fail to differ by
+        whole quarter turns (and the defect of the handle loop, for edges on one), radians.
+    half_log_aspect : (m, 3) float array
+        (H2 - H1) / 2 at the corners of each triangle; 0 for one scale.
+    error_density : (m,) float array
+        rho1^2 + rho2^2 in each triangle (paper, equation intError).
+    convergence : Convergence
+        How the solver came to E.
+    feature_misalignment : (c,) float array
+        Largest angle between the crosses and each feature curve, with sign, radians.
+    """
+
+    surface: TriSurface
+    singularities: tuple[Singularity, ...]
+    corners: Mapping[int, int]
+    method: str
+    H: FloatArray = field(repr=False)
+    theta: FloatArray = field(repr=False)
+    defects: FloatArray
+    boundary_misalignment: FloatArray
+    residual: float
+    max_closing_error: float
+    half_log_aspect: FloatArray = field(repr=False)
+    error_density: FloatArray = field(repr=False)
+    convergence: Convergence
+    feature_misalignment: FloatArray = field(default_factory=lambda: np.zeros(0))
+
+    @cached_property
+    def H1(self) -> FloatArray:
+        """(m, 3) logarithm of the size along u at the corners of each triangle."""
+        return self.H[self.surface.faces] - self.half_log_aspect
+
+    @cached_property
+    def H2(self) -> FloatArray:
+        """(m, 3) logarithm of the size along v at the corners of each triangle."""
+        return self.H[self.surface.faces] + self.half_log_aspect
+
+    @cached_property
+    def log_aspect(self) -> FloatArray:
+        """(m,) |H2 - H1| at each barycentre."""
+        return np.abs(2 * self.half_log_aspect.mean(axis=1))
+
+    @cached_property
+    def aspect_roughness(self) -> float:
+        """The integral of |grad s|^2, s = (H2 - H1) / 2: unbounded under refinement if forced."""
+        t = self.surface.triangulation
+        return float(t.areas @ (t.gradients(self.half_log_aspect) ** 2).sum(axis=1))
+
+    @cached_property
+    def max_log_aspect(self) -> float:
+        """Largest |H2 - H1| away from the triangles around singularities."""
+        singular = np.zeros(self.surface.n_vertices, dtype=bool)
+        for s in self.singularities:
+            singular[self.surface.faces[s.point.face, int(np.argmax(s.point.barycentric))]] = True
+        away = ~singular[self.surface.faces].any(axis=1)
+        return float(self.log_aspect[away].max(initial=0.0))
+
+    @cached_property
+    def energy(self) -> float:
+        """The integrability error E (paper, equation intError)."""
+        return float(np.sqrt(self.surface.face_areas @ self.error_density))
+
+    @cached_property
+    def u(self) -> FloatArray:
+        """(m, 3) unit vector of the cross's first branch at each barycentre."""
+        along, across = self.surface.face_frames
+        return np.cos(self.theta)[:, None] * along + np.sin(self.theta)[:, None] * across
+
+    @cached_property
+    def v(self) -> FloatArray:
+        """(m, 3) unit vector of the second branch, 90 degrees from the first."""
+        along, across = self.surface.face_frames
+        return np.cos(self.theta)[:, None] * across - np.sin(self.theta)[:, None] * along
+
+    @property
+    def index_sum(self) -> int:
+        """Sum of the indices of singularities and corners."""
+        return sum(s.index for s in self.singularities) + sum(self.corners.values())
+
+    @property
+    def index_required(self) -> int:
+        """Four times the Euler characteristic."""
+        return 4 * self.surface.euler_characteristic

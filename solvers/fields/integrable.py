@@ -1,0 +1,185 @@
+"""The anisotropic and the alternating field of a configuration, from start to verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from solvers.errors import CrossviewError
+from solvers.fields.aligned import AlignedField, IntegratedField
+from solvers.fields.alternating import alternate
+from solvers.fields.anisotropic import Iterate, MinimumNormNewton, NewtonStep
+from solvers.fields.crossfield import Convergence, CrossField
+from solvers.progress import Progress, relayed
+from solvers.surface.triangulation import FloatArray
+from solvers.surface.trisurface import TriSurface
+
+LEFT_ALONE = 1e-3
+"""E at which the aligned field is the isotropic one, valid as far as the mesh can tell.
+
+Defects of some hundredths of a degree are within the error of discretisation: a configuration made
+valid for the Delaunay operator has them for that of the surface's own triangles. Newton takes
+the E they leave; smoothing would only trade square quads for even sizes.
+"""
+
+HOMOTOPY_STAGES = (2, 4, 8)
+
+Iteration = Generator[Progress, None, Iterate]
+
+
+@dataclass(frozen=True)
+class FieldStep(Progress):
+    """An iteration, with the field as it is.
+
+    Parameters
+    ----------
+    stage, fraction
+        As in `Progress`.
+    energies : tuple of float
+        E at the start and after each iteration so far.
+    so_far : IntegratedField
+        The field of this iteration, not converged; its parts are computed when asked for.
+    """
+
+    energies: tuple[float, ...]
+    so_far: IntegratedField
+
+
+def anisotropic_field(
+    aligned: AlignedField, sizes: FloatArray | None = None, *, smooth: bool = True
+) -> Generator[Progress, None, IntegratedField]:
+    """Find two scales and an angle with E = 0: Newton, homotopy where it fails, smoothing.
+
+    Parameters
+    ----------
+    aligned : AlignedField
+        Where to start; left alone if it is integrable already.
+    sizes : (n,) or (n, 2) float array, optional
+        Sizes to follow as closely as E = 0 allows: one for both branches, or one along the
+        branch nearer to the x axis and one along the other.
+    smooth : bool, optional
+        Whether to move along E = 0 to the smoothest scales.
+
+    Returns
+    -------
+    IntegratedField
+
+    Raises
+    ------
+    CrossviewError
+        If the sizes have the wrong length or are not positive and finite.
+    """
+    target = np.zeros((aligned.isotropic.surface.n_faces, 2, 3))
+    if sizes is not None:
+        target = _log_targets(aligned.isotropic, sizes)
+    newton = MinimumNormNewton(aligned.integrability)
+    integrated = yield from _shown(aligned, "anisotropic", _solve(aligned, newton))
+    if (
+        smooth
+        and integrated.converged
+        and (sizes is not None or integrated.history[0] > LEFT_ALONE)
+    ):
+        smoothing = newton.slide(integrated.x, target)
+        smoothed = yield from _shown(aligned, "anisotropic", smoothing, integrated.history)
+        integrated = replace(smoothed, history=integrated.history + smoothed.history[1:])
+    convergence = Convergence(integrated.history, integrated.converged)
+    return IntegratedField(aligned, integrated.x, "anisotropic", convergence)
+
+
+def alternating_field(
+    aligned: AlignedField, weight: float = 1.0
+) -> Generator[Progress, None, IntegratedField]:
+    """Minimise E by the paper's Algorithm 3.
+
+    Parameters
+    ----------
+    aligned : AlignedField
+        Where to start.
+    weight : float, optional
+        Of the proximal term; the paper's is 1.
+    """
+    end = yield from _shown(aligned, "alternating", alternate(aligned, weight))
+    convergence = Convergence(end.history, end.converged)
+    return IntegratedField(aligned, end.x, "alternating", convergence)
+
+
+def _solve(aligned: AlignedField, newton: MinimumNormNewton) -> Iteration:
+    """Newton from the aligned field; if it stalls, from the isotropic one by stages."""
+    direct = yield from newton.solve(aligned.start)
+    if direct.converged:
+        return direct
+    for stages in HOMOTOPY_STAGES:
+        last = yield from by_stages(aligned, newton, stages)
+        if last.converged:
+            return Iterate(last.x, direct.history + last.history, True)
+    return direct
+
+
+def by_stages(aligned: AlignedField, newton: MinimumNormNewton, stages: int) -> Iteration:
+    """Turn the misaligned boundaries and handles to zero bit by bit, with E = 0 at each stage.
+
+    The isotropic field is integrable, whatever its defects; the field with a fraction of the
+    harmonic correction is next to the one with a smaller fraction.
+
+    Parameters
+    ----------
+    aligned : AlignedField
+        Where to get.
+    newton : MinimumNormNewton
+        On its integrability problem.
+    stages : int
+        Into how many parts the correction is cut.
+    """
+    x = aligned.start
+    for stage in range(1, stages):
+        partly = MinimumNormNewton(aligned.partly(stage / stages))
+        x = (yield from partly.solve(x)).x
+    return (yield from newton.solve(x))
+
+
+def _shown(
+    aligned: AlignedField, method: str, iteration: Iteration, before: tuple[float, ...] = ()
+) -> Iteration:
+    """Run an iteration, showing each step as a field."""
+    energies = list(before) or [aligned.integrability.residual(aligned.start).energy]
+
+    def show(step: Progress) -> Progress | None:
+        if not isinstance(step, NewtonStep):
+            return None
+        energies.append(step.energy)
+        convergence = Convergence(tuple(energies), converged=False)
+        so_far = IntegratedField(aligned, step.x, method, convergence)
+        return FieldStep(step.stage, step.fraction, convergence.energies, so_far)
+
+    return (yield from relayed(iteration, show))
+
+
+def _log_targets(field: CrossField, sizes: npt.ArrayLike) -> FloatArray:
+    """Return the (m, 2, 3) logarithms of the sizes along u and v at the corners."""
+    values = _checked_sizes(field.surface, sizes)
+    corners = np.log(values)[field.surface.faces].transpose(0, 2, 1)
+    swapped = np.abs(field.u[:, 0]) < np.abs(field.v[:, 0])
+    return np.where(swapped[:, None, None], corners[:, ::-1], corners)
+
+
+def _checked_sizes(surface: TriSurface, sizes: npt.ArrayLike) -> FloatArray:
+    values = np.asarray(sizes, dtype=np.float64)
+    if values.ndim == 1:
+        values = np.stack([values, values], axis=1)
+    if values.shape != (surface.n_vertices, 2):
+        raise CrossviewError(
+            f"the size map has {len(values)} rows for {surface.n_vertices} vertices",
+            "sizes",
+            "give one or two sizes for each vertex",
+        )
+    bad = np.flatnonzero(~(np.isfinite(values) & (values > 0)).all(axis=1))
+    if len(bad):
+        raise CrossviewError(
+            f"{len(bad)} sizes are not positive and finite",
+            f"the first at vertex {bad[0]}",
+            "mend the size map",
+        )
+    return values

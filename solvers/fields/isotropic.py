@@ -1,0 +1,235 @@
+"""The isotropic cross-field: H from one linear system, theta from one walk.
+
+H and theta are discrete harmonic conjugates: the condition that theta closes around a vertex is
+that vertex's row of the system for H. So the second linear system of the paper has an exact
+solution, and a walk over a spanning tree of the triangles finds it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from copy import copy
+from functools import cached_property
+
+import numpy as np
+
+from solvers.algebra.factorization import factorized
+from solvers.algebra.operators import lumped_mass, midpoint_offsets, stiffness
+from solvers.errors import CrossviewError, SingularityError
+from solvers.features.edges import Features
+from solvers.fields.connection import CLEARANCE, QUARTER, Discretization
+from solvers.fields.crossfield import Convergence, CrossField
+from solvers.fields.embedded import split_offsets
+from solvers.fields.holonomy import Holonomy
+from solvers.singularities.budget import Singularity, default_corners, require_budget
+from solvers.surface.cut_graph import cut_graph
+from solvers.surface.triangulation import FloatArray, IntArray
+from solvers.surface.trisurface import TriSurface
+
+
+class IsotropicSolver:
+    """Isotropic fields on one surface: factored once, solved for any singularities.
+
+    Parameters
+    ----------
+    surface : TriSurface
+        The surface.
+    corners : mapping of int to int, optional
+        Index of each boundary vertex where the field turns; by default what `default_corners`
+        reads from the interior angles.
+    flips : bool, optional
+        As in `Discretization`.
+    features : Features, optional
+        Of the surface. The field is not aligned with them, but says how far off it is; without
+        a boundary all crosses are turned alike, so that it is off as little as may be.
+
+    Raises
+    ------
+    SolveError
+        If the surface's triangles are too poor for the system to be solved.
+
+    Attributes
+    ----------
+    turn : float
+        Angle by which all crosses are turned, radians; see `turned`.
+    """
+
+    def __init__(
+        self,
+        surface: TriSurface,
+        corners: Mapping[int, int] | None = None,
+        *,
+        flips: bool = True,
+        features: Features | None = None,
+    ) -> None:
+        self.surface = surface
+        self.corners = dict(default_corners(surface) if corners is None else corners)
+        self.discretization = Discretization(surface, flips=flips, features=features)
+        matrix = stiffness(self.discretization.triangulation)
+        # H is unique up to a constant: the first vertex is pinned, the mean subtracted after.
+        self.factorization = factorized(matrix[1:, 1:])
+        self._mass = lumped_mass(self.discretization.triangulation)
+        self.turn = 0.0
+
+    @cached_property
+    def holonomy(self) -> Holonomy:
+        """The holonomy defects of any configuration on this surface."""
+        return Holonomy(self.discretization, self.factorization, self.corners)
+
+    @property
+    def may_turn(self) -> bool:
+        """Whether neither a boundary nor a feature fixes the direction of the crosses."""
+        return not self.surface.boundary_loops and not len(self.discretization.features)
+
+    def turned(self, angle: float) -> IsotropicSolver:
+        """Return the same solver with all crosses of its fields turned by an angle, radians.
+
+        Raises
+        ------
+        CrossviewError
+            If a boundary or a feature fixes their direction.
+        """
+        if not self.may_turn:
+            raise CrossviewError("a boundary or a feature fixes the direction of the crosses")
+        other = copy(self)
+        other.turn = self.turn + angle
+        return other
+
+    def solve(self, singularities: Sequence[Singularity]) -> CrossField:
+        """Return the field of a configuration, by one back-substitution and one walk.
+
+        Parameters
+        ----------
+        singularities : sequence of Singularity
+            Anywhere inside the surface, at most one in each triangle's interior. The field is
+            the exact discrete one with each of them inserted as a vertex.
+
+        Returns
+        -------
+        CrossField
+
+        Raises
+        ------
+        SingularityError
+            If the index budget is missed, or singularities coincide or lie on the boundary.
+        """
+        require_budget(self.surface, singularities, self.corners)
+        faces, weights = self.discretization.place([s.point for s in singularities])
+        self._check_places(faces, weights)
+        right = self._right_hand_side(singularities, faces, weights)
+        h = np.zeros(self.surface.n_vertices)
+        h[1:] = self.factorization.solve(right[1:])
+        residual = self.factorization.residual(h[1:], right[1:])
+        h -= self._mass @ h / self._mass.sum()
+        offsets = self._offsets(h, singularities, faces, weights)
+        d = self.discretization
+        theta = d.walk(offsets) + self.turn
+        if len(d.features) and not self.surface.boundary_loops:
+            theta += d.turn_to_features(theta, offsets)
+        defects = d.defects(theta, offsets)
+        return CrossField(
+            surface=self.surface,
+            singularities=tuple(singularities),
+            corners=self.corners,
+            method="isotropic",
+            H=h,
+            theta=self._on_surface(h, theta),
+            defects=defects,
+            boundary_misalignment=d.boundary_misalignment(theta, offsets),
+            residual=residual,
+            max_closing_error=d.max_closing_error(theta, offsets, defects),
+            half_log_aspect=np.broadcast_to(0.0, (self.surface.n_faces, 3)),
+            error_density=np.broadcast_to(0.0, self.surface.n_faces),
+            convergence=Convergence(),
+            feature_misalignment=d.feature_misalignment(theta, offsets),
+        )
+
+    def cut_graph(self, singularities: Sequence[Singularity]) -> IntArray:
+        """Return the cut graph of a configuration (paper, branch cut L).
+
+        Parameters
+        ----------
+        singularities : sequence of Singularity
+            Those inside a triangle are met at its nearest corner.
+
+        Returns
+        -------
+        (c, 2) int array
+            End vertices of each edge of the surface in the cut.
+        """
+        own = self.surface.triangulation
+        nearest = [
+            int(self.surface.faces[s.point.face, int(np.argmax(s.point.barycentric))])
+            for s in singularities
+        ]
+        h = cut_graph(
+            own,
+            self.surface.boundary_loops,
+            self.discretization.handles.chain,
+            np.array(nearest, dtype=np.int64),
+        )
+        return np.stack([own.tail[h], own.head[h]], axis=1)
+
+    def _check_places(self, faces: IntArray, weights: FloatArray) -> None:
+        t = self.discretization.triangulation
+        vertices = t.faces[faces]
+        taken: dict[tuple[str, int], int] = {}
+        for number, (face, weight) in enumerate(zip(faces, weights, strict=True), start=1):
+            at = vertices[number - 1][weight > 0]
+            if len(at) == 1:
+                on_boundary = self.surface.boundary_vertices[at[0]]
+            else:
+                sides = (np.flatnonzero(weight <= CLEARANCE) + 1) % 3
+                on_boundary = (t.twin[3 * face + sides] < 0).any()
+            if on_boundary:
+                raise SingularityError(
+                    f"singularity {number} lies on the boundary",
+                    remedy="move it inside, or give the boundary a corner there",
+                )
+            place = ("vertex", int(at[0])) if len(at) == 1 else ("triangle", int(face))
+            if place in taken:
+                raise SingularityError(
+                    f"singularities {taken[place]} and {number} lie in the same {place[0]}",
+                    remedy="move one of them away",
+                )
+            taken[place] = number
+
+    def _right_hand_side(
+        self, singularities: Sequence[Singularity], faces: IntArray, weights: FloatArray
+    ) -> FloatArray:
+        """K - (pi/2) k: both curvatures, the Diracs and the Neumann condition (paper, pdeH)."""
+        t = self.discretization.triangulation
+        right = t.curvatures.copy()
+        for vertex, index in self.corners.items():
+            right[vertex] -= QUARTER * index
+        indices = np.array([s.index for s in singularities], dtype=np.float64)
+        np.subtract.at(right, t.faces[faces], QUARTER * indices[:, None] * weights)
+        return right
+
+    def _offsets(
+        self,
+        h: FloatArray,
+        singularities: Sequence[Singularity],
+        faces: IntArray,
+        weights: FloatArray,
+    ) -> FloatArray:
+        """Turns from barycentres to edge midpoints, around the singularities inside triangles."""
+        t = self.discretization.triangulation
+        offsets = midpoint_offsets(t, h)
+        for singularity, face, weight in zip(singularities, faces, weights, strict=True):
+            if weight.max() < 1:
+                offsets[face] = split_offsets(
+                    t.corner_positions[face], weight, singularity.index, h[t.faces[face]]
+                )
+        return offsets
+
+    def _on_surface(self, h: FloatArray, theta: FloatArray) -> FloatArray:
+        """Return theta at the surface's own barycentres, in its own frames."""
+        d = self.discretization
+        if d.delaunay.n_flips == 0:
+            return theta
+        t, at = d.triangulation, d.barycentres
+        gradient = t.gradients(h[t.faces])[at.face]
+        from_centre = at.place - t.corner_positions[at.face].mean(axis=1)
+        turn = gradient[:, 0] * from_centre[:, 1] - gradient[:, 1] * from_centre[:, 0]
+        return theta[at.face] + turn - at.turn

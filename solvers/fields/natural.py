@@ -1,0 +1,340 @@
+"""Singularities that appear by themselves: where a smooth cross-field must give way.
+
+The cross is one complex number at each edge midpoint (Crouzeix-Raviart, as in Jezdimirovic et al.
+2019): the fourth power of its direction against the edge. It is smoothed by
+
+- MBO (Viertel and Osting 2019): diffuse for a short time, renormalise, until nothing changes;
+- Ginzburg-Landau (Jezdimirovic et al. 2019): descend int |grad z|^2 + (|z|^2 - 1)^2 / (2 eps^2);
+- globally optimal (Knoeppel et al. 2013): the smoothest field of unit norm, one eigenvector; with a
+  boundary the harmonic field.
+
+On the boundary and on features the cross is aligned. It may also be drawn towards the directions of
+principal curvature (the alignment term of Knoeppel et al. 2013), the more where they differ more.
+Singularities are vertices the cross turns around.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+from scipy.sparse import coo_array, csc_array, diags_array
+
+from solvers.algebra.factorization import factorized
+from solvers.errors import CrossviewError
+from solvers.features.edges import Features, no_features
+from solvers.fields.connection import QUARTER
+from solvers.fields.crossfield import Convergence, CrossField
+from solvers.fields.principal import principal_crosses
+from solvers.progress import Progress
+from solvers.singularities.budget import Singularity, default_corners
+from solvers.surface.points import SurfacePoint
+from solvers.surface.triangulation import FloatArray, IntArray, next_halfedge, wrap
+from solvers.surface.trisurface import TriSurface
+
+ComplexArray = npt.NDArray[np.complex128]
+
+METHODS = ("mbo", "ginzburg-landau", "globally-optimal")
+
+ALIGNMENTS = ("smoothness", "curvature")
+
+CURVATURE_WEIGHT = 200.0
+"""Of the pull towards principal directions against the smoothness, in parts of the area.
+
+Where they are as clear as on average, the crosses follow them over the fourteenth part of the
+surface's size.
+"""
+
+ITERATIONS = 400
+MOMENTUM = 0.9
+"""Share of the last change that is added before the next step (Polyak's heavy ball)."""
+
+STILL = 1e-6
+"""Root mean square change of the crosses below which an iteration has ended."""
+
+
+@dataclass(frozen=True, eq=False)
+class CrossesStep(Progress):
+    """An iteration, with the crosses as they are.
+
+    Parameters
+    ----------
+    stage, fraction
+        As in `Progress`.
+    surface : TriSurface
+        Where.
+    z : (ne,) complex array
+        Fourth power of the cross at each edge's midpoint, in the direction of the edge.
+    """
+
+    surface: TriSurface
+    z: ComplexArray
+
+    @cached_property
+    def theta(self) -> FloatArray:
+        """(m,) angle of a cross in each triangle against its first edge, radians."""
+        t = self.surface.triangulation
+        turned = self.z[self.surface.face_edges.reshape(-1)] * np.exp(4j * t.directions)
+        return np.asarray(np.angle(turned.reshape(-1, 3).sum(axis=1)) / 4)
+
+    @property
+    def field(self) -> CrossField:
+        """The crosses alone, all of one size; to be looked at."""
+        surface = self.surface
+        return CrossField(
+            surface=surface,
+            singularities=(),
+            corners={},
+            method="natural",
+            H=np.zeros(surface.n_vertices),
+            theta=self.theta,
+            defects=np.zeros(0),
+            boundary_misalignment=np.zeros(0),
+            residual=0.0,
+            max_closing_error=0.0,
+            half_log_aspect=np.zeros((surface.n_faces, 3)),
+            error_density=np.zeros(surface.n_faces),
+            convergence=Convergence(converged=False),
+        )
+
+
+def natural_singularities(
+    surface: TriSurface,
+    method: str = "mbo",
+    seed: int = 0,
+    *,
+    alignment: str = "smoothness",
+    weight: float = CURVATURE_WEIGHT,
+    features: Features | None = None,
+) -> Generator[Progress, None, tuple[Singularity, ...]]:
+    """Return the singularities of a smooth cross-field aligned with boundaries and features.
+
+    Yields a `CrossesStep` for each iteration.
+
+    Parameters
+    ----------
+    surface : TriSurface
+        The surface.
+    method : {"mbo", "ginzburg-landau", "globally-optimal"}, optional
+        How the cross-field is smoothed.
+    seed : int, optional
+        Of the random start of the first two methods.
+    alignment : {"smoothness", "curvature"}, optional
+        Whether the crosses are also drawn towards the directions of principal curvature.
+    weight : float, optional
+        How strongly, against the smoothness: -lambda of Knoeppel et al. times the area.
+    features : Features, optional
+        Edges of the surface to be aligned with; by default none.
+
+    Returns
+    -------
+    tuple of Singularity
+        At inner vertices and in triangles; their indices and those of the default corners sum
+        to the budget.
+
+    Raises
+    ------
+    CrossviewError
+        If the method or the alignment is unknown, or the weight is negative or not finite.
+    """
+    if method not in METHODS:
+        raise CrossviewError(f'unknown method "{method}"', remedy=f"one of {', '.join(METHODS)}")
+    if alignment not in ALIGNMENTS:
+        raise CrossviewError(
+            f'unknown alignment "{alignment}"', remedy=f"one of {', '.join(ALIGNMENTS)}"
+        )
+    if not 0 <= weight < np.inf:
+        raise CrossviewError(f"the weight {weight:g} of the curvature is not 0 or more", "weight")
+    pull = weight if alignment == "curvature" else 0.0
+    problem = _Crosses(surface, no_features(surface) if features is None else features, pull)
+    z = yield from {
+        "mbo": problem.mbo,
+        "ginzburg-landau": problem.ginzburg_landau,
+        "globally-optimal": problem.globally_optimal,
+    }[method](np.random.default_rng(seed))
+    return _as_singularities(surface, *problem.indices(z))
+
+
+class _Crosses:
+    """Complex cross values at edge midpoints, the energy of their differences, and the pull."""
+
+    def __init__(self, surface: TriSurface, features: Features, pull: float) -> None:
+        self.surface = surface
+        self.t = t = surface.triangulation
+        self.edge = surface.face_edges.reshape(-1)
+        n = len(t.edge_halfedges)
+        # A halfedge that runs against its edge sees the cross turned by 180 degrees: the same.
+        h = np.arange(len(t.twin))
+        after = next_halfedge(h)
+        self.turn = np.exp(-4j * (t.directions[after] - t.directions[h]))
+        # Midpoints of halfedges h and h + 1 are coupled by the corner between them.
+        weight = 2.0 * t.cotangents.reshape(-1)[after]
+        i, j = self.edge[h], self.edge[after]
+        diagonal = np.bincount(i, weight, n) + np.bincount(j, weight, n)
+        rows, columns = np.concatenate([j, i]), np.concatenate([i, j])
+        values = -np.concatenate([weight * self.turn, weight * self.turn.conj()])
+        every = np.arange(n)
+        self.energy = coo_array(
+            (
+                np.concatenate([values, diagonal.astype(complex)]),
+                (np.concatenate([rows, every]), np.concatenate([columns, every])),
+            ),
+            shape=(n, n),
+        ).tocsc()
+        self.mass = np.bincount(self.edge, np.repeat(t.areas / 3, 3), n)
+        self.free = surface.edge_faces[:, 1] >= 0
+        self.free[features.edges] = False
+        self.size = float(surface.area)
+        # pull int |z - principal|^2 is added to the energy.
+        self.pulled = np.zeros(n, dtype=complex)
+        if pull > 0:
+            self.energy = self.energy + diags_array(pull / self.size * self.mass)
+            self.pulled = pull / self.size * self.mass * principal_crosses(surface)
+
+    def random(self, rng: np.random.Generator) -> ComplexArray:
+        z = np.exp(2j * np.pi * rng.random(len(self.mass)))
+        return np.where(self.free, z, 1.0)
+
+    def mbo(self, rng: np.random.Generator) -> Generator[Progress, None, ComplexArray]:
+        z = self.random(rng)
+        for time in (0.05, 0.01, 0.002):
+            z = yield from self._diffuse(z, time * self.size)
+        return z
+
+    def _diffuse(self, z: ComplexArray, time: float) -> Generator[Progress, None, ComplexArray]:
+        step = _Hermitian(self.energy * time + diags_array(self.mass), self.free)
+
+        def diffuse(z: ComplexArray) -> ComplexArray:
+            return _unit(step.solve(self.mass * z + time * self.pulled, z))
+
+        return self._until_still(z, diffuse, "MBO")
+
+    def ginzburg_landau(self, rng: np.random.Generator) -> Generator[Progress, None, ComplexArray]:
+        z = yield from self._diffuse(self.random(rng), 0.05 * self.size)
+        width = max(0.05 * np.sqrt(self.size), 1.5 * float(self.t.lengths.mean()))
+        pull = 3.0 / width**2  # makes the step stable for |z| <= 1
+        step = _Hermitian(self.energy + diags_array(pull * self.mass), self.free)
+
+        def descend(z: ComplexArray) -> ComplexArray:
+            well = pull + (1 - np.abs(z) ** 2) / width**2
+            return step.solve(self.mass * well * z + self.pulled, z)
+
+        return (yield from self._until_still(z, descend, "Ginzburg-Landau"))
+
+    def _until_still(
+        self, z: ComplexArray, step: Callable[[ComplexArray], ComplexArray], stage: str
+    ) -> Generator[Progress, None, ComplexArray]:
+        """Repeat a step, each from a little farther on, until the crosses hardly change.
+
+        Singularities that drift slowly would take thousands of plain steps.
+        """
+        before = z
+        for count in range(ITERATIONS):
+            before, z = z, step(z + MOMENTUM * (z - before))
+            change = np.sqrt(np.average(np.abs(z - before) ** 2, weights=self.mass))
+            yield CrossesStep(stage, count / ITERATIONS, self.surface, z)
+            if change < STILL:
+                break
+        return z
+
+    def globally_optimal(self, rng: np.random.Generator) -> Generator[Progress, None, ComplexArray]:
+        shift = 1e-8 / self.size
+        step = _Hermitian(self.energy + diags_array(shift * self.mass), self.free)
+        z = self.random(rng)
+        if self.pulled.any() or not self.free.all():
+            return step.solve(self.pulled, z)
+        for count in range(ITERATIONS):
+            after = step.solve(self.mass * z, z)
+            after /= np.sqrt(self.mass @ np.abs(after) ** 2)
+            overlap = abs((self.mass * z.conj()) @ after) / np.sqrt(self.mass @ np.abs(z) ** 2)
+            z = after
+            yield CrossesStep("globally optimal", count / ITERATIONS, self.surface, z)
+            if 1 - overlap < 1e-12:
+                break
+        return z
+
+    def indices(self, z: ComplexArray) -> tuple[IntArray, IntArray]:
+        """Return the indices of vertices and of triangles: quarter turns of the cross around.
+
+        Between neighbouring midpoints the cross turns by the least angle, so the indices of all
+        vertices and triangles sum to the budget whatever the values are.
+        """
+        t = self.t
+        h = np.arange(len(t.twin))
+        after = next_halfedge(h)
+        seen = np.angle(z[self.edge[after]] * (z[self.edge] * self.turn).conj())
+        turning = wrap(seen, 2 * np.pi) / 4
+        # Halfedges h and h + 1 meet at the head of h; going around it runs from h + 1 to h.
+        around = t.curvatures - np.bincount(t.head, turning, t.n_vertices)
+        inside = turning.reshape(-1, 3).sum(axis=1)
+        return _quarter_turns(around), _quarter_turns(inside)
+
+
+def _quarter_turns(angle: FloatArray) -> IntArray:
+    return np.rint(angle / QUARTER).astype(np.int64)
+
+
+class _Hermitian:
+    """A factored Hermitian positive definite system with some values imposed."""
+
+    def __init__(self, matrix: csc_array, free: npt.NDArray[np.bool_]) -> None:
+        matrix = csc_array(matrix)
+        self._free = np.flatnonzero(free)
+        self._imposed = np.flatnonzero(~free)
+        rows = matrix[self._free]
+        self._coupling = csc_array(rows[:, self._imposed])
+        inner = coo_array(rows[:, self._free])
+        k = len(self._free)
+        # As a real symmetric matrix of twice the size, unknowns interleaved.
+        i, j, a, b = inner.row, inner.col, inner.data.real, inner.data.imag
+        self._factor = factorized(
+            coo_array(
+                (
+                    np.concatenate([a, a, -b, b]),
+                    (
+                        np.concatenate([2 * i, 2 * i + 1, 2 * i, 2 * i + 1]),
+                        np.concatenate([2 * j, 2 * j + 1, 2 * j + 1, 2 * j]),
+                    ),
+                ),
+                shape=(2 * k, 2 * k),
+            ).tocsc()
+        )
+
+    def solve(self, right: ComplexArray, imposed: ComplexArray) -> ComplexArray:
+        """Return the solution that has the imposed values where they are imposed."""
+        inner = right[self._free] - self._coupling @ imposed[self._imposed]
+        solution = imposed.copy()
+        real = np.ascontiguousarray(inner).view(np.float64)
+        solution[self._free] = self._factor.solve(real).view(np.complex128)
+        return solution
+
+
+def _unit(z: ComplexArray) -> ComplexArray:
+    return z / np.maximum(np.abs(z), 1e-300)
+
+
+def _as_singularities(
+    surface: TriSurface, of_vertices: IntArray, of_faces: IntArray
+) -> tuple[Singularity, ...]:
+    """Return the indices as singularities; those on the boundary move to an inner neighbour."""
+    excess = of_vertices.copy()
+    for corner, index in default_corners(surface).items():
+        excess[corner] -= index
+    inner = np.flatnonzero(~surface.boundary_vertices)
+    for vertex in np.flatnonzero((excess != 0) & surface.boundary_vertices):
+        gap = np.linalg.norm(surface.vertices[inner] - surface.vertices[vertex], axis=1)
+        excess[inner[np.argmin(gap)]] += excess[vertex]
+        excess[vertex] = 0
+    centre = (1 / 3, 1 / 3, 1 / 3)
+    at_vertices = [
+        Singularity(surface.point_at_vertex(int(v)), 4 - int(excess[v]))
+        for v in np.flatnonzero(excess)
+    ]
+    at_faces = [
+        Singularity(SurfacePoint(int(f), centre), 4 - int(of_faces[f]))
+        for f in np.flatnonzero(of_faces)
+    ]
+    return (*at_vertices, *at_faces)

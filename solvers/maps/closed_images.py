@@ -1,0 +1,192 @@
+"""Images of edges that close around every triangle, as near as possible to wanted ones.
+
+One vector for each edge, in the frame of its first triangle's cross; the other side sees it turned
+by the matching. Boundary and feature edges have no component across. What else is to vanish is met
+by least moves (a few back-substitutions with the same factor).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_array, csc_array, diags_array, vstack
+
+from solvers.algebra.factorization import Analysis, Factorization
+from solvers.fields.integrability import Integrability
+from solvers.surface.triangulation import FloatArray, IntArray
+
+
+@dataclass(frozen=True, eq=False)
+class SeamlessMap:
+    """The images of a surface's edges.
+
+    Parameters
+    ----------
+    images : (m, 3, 2) float array
+        Image of each halfedge in the frame of its triangle's cross: along u, along v.
+    distance : float
+        How far they are from what the field asks for, relative, in the weighted norm.
+    """
+
+    images: FloatArray
+    distance: float
+
+    @property
+    def flipped(self) -> IntArray:
+        """Triangles whose image is turned over or has no area."""
+        first, last = self.images[:, 0], self.images[:, 2]
+        area = last[:, 0] * first[:, 1] - last[:, 1] * first[:, 0]
+        return np.flatnonzero(area <= 0)
+
+
+@dataclass(frozen=True, eq=False)
+class Joining:
+    """Linear combinations of images that are to vanish, and the moves that change each.
+
+    Parameters
+    ----------
+    rows : (k, 6 m) sparse array
+        Coefficients of the components of halfedges' images.
+    wanted, moves : (k, 2 ne) float arrays
+        The same for edges' images, and the least closed change of those for each.
+    """
+
+    rows: csc_array
+    wanted: FloatArray
+    moves: FloatArray
+
+    def followed_by(self, other: Joining) -> Joining:
+        """Return these and others."""
+        return Joining(
+            csc_array(vstack([self.rows, other.rows])),
+            np.concatenate([self.wanted, other.wanted]),
+            np.concatenate([self.moves, other.moves]),
+        )
+
+    def first(self, count: int) -> Joining:
+        """Return the first ones."""
+        return Joining(csc_array(self.rows[:count]), self.wanted[:count], self.moves[:count])
+
+
+class Conditions:
+    """What every seamless map of a field satisfies, in terms of one image for each edge.
+
+    Parameters
+    ----------
+    integrability : Integrability
+        The problem around the field.
+    """
+
+    def __init__(self, integrability: Integrability) -> None:
+        edges = integrability.triangulation.edge_halfedges
+        self.spread = _to_halfedges(integrability, edges)
+        self.closing = _closing(integrability, self.spread)
+        self.free = _free(integrability, edges).reshape(-1)
+        self._analysis: Analysis | None = None
+
+    def factor(self, matrix: csc_array) -> Factorization:
+        """Factor a matrix that has the same pattern each time."""
+        if self._analysis is None:
+            self._analysis = Analysis(matrix)
+        return self._analysis.factor(matrix)
+
+
+class ClosestImages:
+    """The seamless maps nearest to wanted images.
+
+    Parameters
+    ----------
+    conditions : Conditions
+        What every map satisfies.
+    wanted : (3 m, 2) float array
+        The wanted image of each halfedge.
+    weight : (3 m,) float array
+        What each counts.
+    """
+
+    def __init__(self, conditions: Conditions, wanted: FloatArray, weight: FloatArray) -> None:
+        spread, closing = conditions.spread, conditions.closing
+        squares = np.repeat(weight, 2)
+        self.conditions = conditions
+        self._diagonal = spread.power(2).T @ squares
+        free = conditions.free
+        self._asked = free * (spread.T @ (squares * wanted.reshape(-1))) / self._diagonal
+        self._inverse = free / self._diagonal
+        schur = closing @ diags_array(self._inverse) @ closing.T
+        # On a flat torus the closing of all triangles together is no condition.
+        schur = csc_array(schur + 1e-13 * diags_array(schur.diagonal()))
+        self._factor = conditions.factor(schur)
+
+    def _closed(self, images: FloatArray) -> FloatArray:
+        """Return the nearest images of edges that close around every triangle."""
+        closing = self.conditions.closing
+        forces = closing.T @ self._factor.solve(closing @ images)
+        return np.asarray(images - self._inverse * forces)
+
+    def _as_map(self, images: FloatArray) -> SeamlessMap:
+        change = images - self._asked
+        asked = self._diagonal @ self._asked**2
+        distance = np.sqrt(self._diagonal @ change**2 / asked)
+        return SeamlessMap((self.conditions.spread @ images).reshape(-1, 3, 2), float(distance))
+
+    def joining(self, rows: csc_array) -> Joining:
+        """Return the rows of halfedges' images (k, 6 m) with the moves that change each."""
+        wanted = csc_array(rows @ self.conditions.spread).toarray()
+        moves = [self._closed(self._inverse * row) for row in wanted]
+        return Joining(rows, wanted, np.array(moves).reshape(wanted.shape))
+
+    def joined(self, joining: Joining) -> SeamlessMap:
+        """Return the nearest map on which also these combinations of its images vanish."""
+        images = self._closed(self._asked)
+        wanted, moves = joining.wanted, joining.moves
+        if len(wanted):
+            force = np.linalg.lstsq(wanted @ moves.T, wanted @ images, rcond=1e-10)[0]
+            images = images - force @ moves
+        return self._as_map(images)
+
+
+def _to_halfedges(integrability: Integrability, edges: IntArray) -> csc_array:
+    """Return the (6 m, 2 ne) matrix from edges' images to those of all halfedges."""
+    t = integrability.triangulation
+    inner = t.twin[edges] >= 0
+    number = np.arange(len(edges))
+    h = np.concatenate([edges, t.twin[edges[inner]]])
+    column = np.concatenate([number, number[inner]])
+    # The twin runs the other way, and its cross is p quarter turns behind.
+    turns = np.concatenate(
+        [np.zeros(len(edges), int), 2 + integrability.quarter_turns[edges[inner]]]
+    )
+    cosine = np.array([1, 0, -1, 0])[turns % 4]
+    sine = np.array([0, 1, 0, -1])[turns % 4]
+    rows = np.concatenate([2 * h, 2 * h, 2 * h + 1, 2 * h + 1])
+    columns = np.concatenate([2 * column, 2 * column + 1, 2 * column, 2 * column + 1])
+    values = np.concatenate([cosine, -sine, sine, cosine]).astype(np.float64)
+    return coo_array((values, (rows, columns)), shape=(2 * len(t.twin), 2 * len(edges))).tocsc()
+
+
+def _closing(integrability: Integrability, spread: csc_array) -> csc_array:
+    """Return the (2 m, 2 ne) matrix that sums the edges of each triangle."""
+    m = integrability.triangulation.n_faces
+    rows = np.repeat(np.arange(m), 3)
+    summing = coo_array(
+        (
+            np.ones(6 * m),
+            (np.stack([2 * rows, 2 * rows + 1], axis=1).reshape(-1), np.arange(6 * m)),
+        ),
+        shape=(2 * m, 6 * m),
+    ).tocsc()
+    return csc_array(summing @ spread)
+
+
+def _free(integrability: Integrability, edges: IntArray) -> np.ndarray:
+    """Return which components (ne, 2) are free: on aligned edges only the one along them."""
+    i, t = integrability, integrability.triangulation
+    free = np.ones((len(edges), 2), dtype=bool)
+    border = i.aligned_edges
+    h = edges[border]
+    angle = t.directions[h] - (i.theta[:, None] + i.offsets).reshape(-1)[h]
+    along_v = np.rint(angle / (np.pi / 2)).astype(int) % 2
+    free[border, 0] = along_v == 0
+    free[border, 1] = along_v == 1
+    return free

@@ -1,0 +1,1 @@
+"""From a triangle soup to a surface, and what that took."""

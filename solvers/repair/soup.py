@@ -1,0 +1,176 @@
+"""Make a surface of a triangle soup, and say what that took."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from solvers.errors import SurfaceError
+from solvers.repair.flat_triangles import mend_flat_triangles, merge_coincident
+from solvers.repair.orientation import orient
+from solvers.surface.triangulation import FloatArray, IntArray
+from solvers.surface.trisurface import TriSurface
+from solvers.surface.validation import (
+    HalfedgePairs,
+    array_problems,
+    counted,
+    duplicate_faces,
+    face_components,
+    fan_labels,
+    problems,
+)
+
+
+@dataclass(frozen=True)
+class Repaired:
+    """A surface, and what was done to the arrays it comes from.
+
+    Attributes
+    ----------
+    surface : TriSurface
+    notes : tuple of str
+        One for each change, in plain words.
+    """
+
+    surface: TriSurface
+    notes: tuple[str, ...] = ()
+
+
+def repair(
+    vertices: npt.ArrayLike,
+    faces: npt.ArrayLike,
+    *,
+    merge: bool = False,
+    aggressive: bool = False,
+    component: int | str | None = None,
+) -> Repaired:
+    """Make a surface, changing the arrays where that is safe or asked for.
+
+    Vertices that belong to no triangle are dropped, and triangles are turned to agree with their
+    neighbours, always; a closed surface that had to be turned faces outwards.
+
+    Parameters
+    ----------
+    vertices : (n, 3) array_like of float
+        Coordinates.
+    faces : (m, 3) array_like of int
+        Corner vertices.
+    merge : bool, optional
+        Make one vertex of those at the same place, for formats that do not share vertices.
+    aggressive : bool, optional
+        Also mend triangles without area, drop duplicate triangles, and cut the surface apart at
+        non-manifold edges and vertices.
+    component : int, "largest" or None, optional
+        Keep one connected component, numbered from the largest, 0, down.
+
+    Raises
+    ------
+    SurfaceError
+        What still keeps the arrays from being one oriented manifold surface. Its elements are
+        numbered as in the arrays given, unless `merge`, `aggressive` or `component` changed them.
+    """
+    points, triangles, notes = _mended(vertices, faces, merge, aggressive)
+    if component is not None:
+        triangles, note = _choose(len(points), triangles, component)
+        notes += [note] if note else []
+    return Repaired(_surface(points, triangles), tuple(notes))
+
+
+def repair_each(
+    vertices: npt.ArrayLike, faces: npt.ArrayLike, *, merge: bool = False, aggressive: bool = False
+) -> tuple[Repaired, ...]:
+    """Make a surface of every connected component, the largest first.
+
+    Parameters
+    ----------
+    vertices, faces, merge, aggressive
+        As of `repair`; so are the errors raised.
+    """
+    points, triangles, notes = _mended(vertices, faces, merge, aggressive)
+    of_face = face_components(len(points), triangles)
+    return tuple(
+        Repaired(_surface(points, triangles[of_face == number]), tuple(notes))
+        for number in range(int(of_face.max(initial=0)) + 1)
+    )
+
+
+def _mended(
+    vertices: npt.ArrayLike, faces: npt.ArrayLike, merge: bool, aggressive: bool
+) -> tuple[FloatArray, IntArray, list[str]]:
+    """Return the arrays after all repairs but the choice of a component, and notes on them."""
+    points = np.array(vertices, dtype=np.float64)
+    triangles = np.array(faces, dtype=np.int64)
+    unused = ~np.isin(np.arange(len(points)), triangles)
+    points[unused] = 0.0  # whatever stands there does no harm
+    for problem in array_problems(points, triangles):
+        raise problem
+    notes = [f"dropped {counted(int(unused.sum()), 'unused vertex')}"] if unused.any() else []
+    steps = [merge_coincident] if merge else []
+    steps += [mend_flat_triangles, _drop_duplicates] if aggressive else []
+    steps += [orient, _cut_apart] if aggressive else [orient]
+    for step in steps:
+        points, triangles, note = step(points, triangles)
+        notes += [note] if note else []
+    return points, triangles, notes
+
+
+def _surface(points: FloatArray, triangles: IntArray) -> TriSurface:
+    """Return the surface of the triangles, without the vertices they do not use."""
+    used = np.zeros(len(points), dtype=bool)
+    used[triangles] = True
+    if used.all():
+        return TriSurface(points, triangles)
+    for problem in problems(points, triangles):
+        # in the caller's numbers; that vertices are unused is no problem here
+        if problem.kind != "vertices" or used[problem.elements].any():
+            raise problem
+    number = np.cumsum(used) - 1
+    return TriSurface(points[used], number[triangles])
+
+
+def _drop_duplicates(points: FloatArray, triangles: IntArray) -> tuple[FloatArray, IntArray, str]:
+    again = duplicate_faces(triangles)
+    note = f"dropped {counted(int(again.sum()), 'duplicate triangle')}" if again.any() else ""
+    return points, triangles[~again], note
+
+
+def _cut_apart(points: FloatArray, triangles: IntArray) -> tuple[FloatArray, IntArray, str]:
+    """Give each fan of triangles around a vertex a vertex of its own.
+
+    Fans end at boundary edges and at edges of more than two triangles.
+    """
+    pairs = HalfedgePairs(len(points), triangles)
+    crowded = round((1 / pairs.count[pairs.count > 2]).sum())
+    count, label = fan_labels(pairs.twin)
+    corner = triangles.reshape(-1)
+    fans = np.unique(np.stack([corner, label]), axis=1)[0]
+    several = int((np.bincount(fans) > 1).sum())
+    if not several:
+        return points, triangles, ""
+    place = np.empty(count, dtype=np.int64)
+    place[label] = corner
+    note = f"cut apart at {counted(several, 'vertex')}"
+    if crowded:
+        note += f" and {counted(crowded, 'non-manifold edge')}"
+    return points[place], label.reshape(-1, 3), note
+
+
+def _choose(n_points: int, triangles: IntArray, component: int | str) -> tuple[IntArray, str]:
+    of_face = face_components(n_points, triangles)
+    count = int(of_face.max(initial=0)) + 1
+    number = 0 if component == "largest" else component
+    if not isinstance(number, int) or not 0 <= number < count:
+        raise SurfaceError(
+            f"there is no component {component}",
+            f"of {count}",
+            f'choose "largest" or a number from 0 to {count - 1}',
+        )
+    kept = of_face == number
+    if count == 1:
+        return triangles, ""
+    which = "the largest" if number == 0 else f"number {number}"
+    return triangles[kept], (
+        f"kept {which} of {count} components, {kept.sum()} of {len(kept)} triangles"
+    )

@@ -1,0 +1,1 @@
+"""Singularities and corners: the index budget, pairs, symmetry, spacing."""

@@ -1,0 +1,157 @@
+"""Singularities, corners, and the index budget they must meet (Poincare-Hopf)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from solvers.errors import SingularityError
+from solvers.surface.points import SurfacePoint
+from solvers.surface.trisurface import TriSurface
+
+TIE = 1e-3
+"""By how many quads an angle may miss the middle between two numbers and still count as there."""
+
+
+@dataclass(frozen=True)
+class Singularity:
+    """An irregular point of the cross-field.
+
+    Parameters
+    ----------
+    point : SurfacePoint
+        Where it sits.
+    valence : int
+        Number of quads that meet there; 4 would be regular.
+    locked : bool, optional
+        Whether it must stay where it is.
+    """
+
+    point: SurfacePoint
+    valence: int
+    locked: bool = False
+
+    @property
+    def index(self) -> int:
+        """Index k = 4 - valence, in quarter turns (paper, section 2)."""
+        return 4 - self.valence
+
+
+def default_corners(surface: TriSurface) -> dict[int, int]:
+    """Return the boundary vertices where the field turns, judged by their interior angle.
+
+    Parameters
+    ----------
+    surface : TriSurface
+        A surface with or without boundary.
+
+    Returns
+    -------
+    dict of int to int
+        Index k = 2 - (number of quads that meet there, the nearest to the angle and at least
+        one) for each boundary vertex where it is not zero: +1 at 90 degrees, -1 at 270. Halfway
+        between, as at 135 degrees, the one nearer to a straight boundary counts.
+    """
+    vertices = np.flatnonzero(surface.boundary_vertices)
+    turn = surface.angle_defects[vertices] / (np.pi / 2)
+    size = np.ceil(np.abs(turn) - 0.5 - TIE)
+    index = np.minimum((np.sign(turn) * size).astype(int), 1)
+    turning = index != 0
+    return {int(v): int(k) for v, k in zip(vertices[turning], index[turning], strict=True)}
+
+
+@dataclass(frozen=True)
+class IndexBudget:
+    """The sum of all indices against the sum the topology demands.
+
+    Parameters
+    ----------
+    index_sum : int
+        Sum of the indices of singularities and corners.
+    required : int
+        Four times the Euler characteristic.
+    message : str
+        The comparison in plain words, with what is missing.
+    remedies : tuple of str
+        Single changes that would meet the budget.
+    """
+
+    index_sum: int
+    required: int
+    message: str
+    remedies: tuple[str, ...]
+
+    @property
+    def missing(self) -> int:
+        """What must be added to the index sum."""
+        return self.required - self.index_sum
+
+    @property
+    def satisfied(self) -> bool:
+        """Whether nothing is missing."""
+        return self.missing == 0
+
+
+def index_budget(
+    surface: TriSurface, singularities: Sequence[Singularity], corners: Mapping[int, int]
+) -> IndexBudget:
+    """Compare the indices of a configuration with 4 chi (paper, section 2; Poincare-Hopf).
+
+    Parameters
+    ----------
+    surface : TriSurface
+        The surface.
+    singularities : sequence of Singularity
+        Interior singularities.
+    corners : mapping of int to int
+        Index of the corners, by boundary vertex.
+    """
+    total = sum(s.index for s in singularities) + sum(corners.values())
+    required = 4 * surface.euler_characteristic
+    missing = required - total
+    if missing == 0:
+        return IndexBudget(total, required, f"index {total} of {required}", ())
+    remedies = _remedies(missing, singularities)
+    message = f"index {total} of {required}: {' or '.join(remedies)}"
+    return IndexBudget(total, required, message, remedies)
+
+
+def require_budget(
+    surface: TriSurface, singularities: Sequence[Singularity], corners: Mapping[int, int]
+) -> None:
+    """Refuse a configuration that misses the index budget.
+
+    Parameters
+    ----------
+    surface, singularities, corners
+        As for `index_budget`.
+
+    Raises
+    ------
+    SingularityError
+        It names the sum, what is required, and what would mend it.
+    """
+    budget = index_budget(surface, singularities, corners)
+    if not budget.satisfied:
+        raise SingularityError(
+            f"the singularities miss the index budget, {budget.index_sum} of {budget.required}",
+            remedy=" or ".join(budget.remedies),
+        )
+
+
+def _remedies(missing: int, singularities: Sequence[Singularity]) -> tuple[str, ...]:
+    valence = 3 if missing > 0 else 5
+    count = abs(missing)
+    found = [f"add {'one' if count == 1 else count} valence {valence}"]
+    if missing < -1:
+        found.append(f"add one valence {4 - missing}")
+    for number, singularity in enumerate(singularities, start=1):
+        changed = singularity.valence - missing
+        if changed >= 1:
+            made = "remove" if changed == 4 else "make"
+            tail = "" if changed == 4 else f" a valence {changed}"
+            found.append(f"{made} #{number}{tail}")
+            break
+    return tuple(found)

@@ -1,0 +1,170 @@
+"""Tools that keep the index sum: pairs added, singularities merged and split."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from solvers.errors import SingularityError
+from solvers.singularities.budget import Singularity
+from solvers.surface.geodesics import straightest
+from solvers.surface.points import SurfacePoint
+from solvers.surface.trisurface import TriSurface
+
+APART = 0.04
+"""How far the two of a pair are put apart, in square roots of the surface's area."""
+
+DIRECTIONS = 12
+"""How many directions are tried for one that leaves the most room."""
+
+
+def pair_at(
+    surface: TriSurface,
+    singularities: Sequence[Singularity],
+    point: SurfacePoint,
+    apart: float | None = None,
+) -> tuple[Singularity, Singularity]:
+    """Return a valence 3 and a valence 5 around a place, for the sum of indices to stay.
+
+    Parameters
+    ----------
+    surface : TriSurface
+        The surface.
+    singularities : sequence of Singularity
+        What is there; the pair keeps away from them and from the boundary.
+    point : SurfacePoint
+        The middle of the pair.
+    apart : float, optional
+        How far, in units of length; by default two edges or a little more on fine meshes.
+
+    Raises
+    ------
+    SingularityError
+        There is no room.
+    """
+    first, second = _ends(surface, singularities, point, apart)
+    return Singularity(first, 3), Singularity(second, 5)
+
+
+def merged(
+    surface: TriSurface, singularities: Sequence[Singularity], one: int, other: int
+) -> tuple[Singularity, ...]:
+    """Return the configuration with two singularities made one, the sum of indices kept.
+
+    Where their indices cancel, as those of valences 3 and 5, none is left. A locked one keeps its
+    place; else the new one lies midway.
+
+    Parameters
+    ----------
+    surface : TriSurface
+        The surface.
+    singularities : sequence of Singularity
+        The configuration.
+    one, other : int
+        Which two, from 0; the new one takes the place of the earlier in the sequence.
+
+    Raises
+    ------
+    SingularityError
+        No valence has the sum of their indices, or both are locked.
+    """
+    first, second = sorted((one, other))
+    a, b = singularities[first], singularities[second]
+    names = f"#{first + 1} and #{second + 1}"
+    if first == second:
+        raise SingularityError("it takes two singularities to merge", names, "choose another")
+    index = a.index + b.index
+    if a.locked and b.locked:
+        raise SingularityError("both singularities are locked", names, "unlock one of them")
+    if index > 3:
+        raise SingularityError(
+            f"no valence has the index {index}",
+            names,
+            "merge others, whose indices sum to 3 at most",
+        )
+    kept = [s for i, s in enumerate(singularities) if i not in (first, second)]
+    if index != 0:
+        held = a if a.locked else b
+        middle = 0.5 * (surface.position(a.point) + surface.position(b.point))
+        point = held.point if held.locked else surface.closest_point(middle)
+        kept.insert(first, Singularity(point, 4 - index, held.locked))
+    return tuple(kept)
+
+
+def split(
+    surface: TriSurface,
+    singularities: Sequence[Singularity],
+    which: int,
+    apart: float | None = None,
+) -> tuple[Singularity, ...]:
+    """Return the configuration with one singularity made two, of half its index each.
+
+    A valence 6 becomes two 5, an 8 two 6, a 2 two 3; of an odd index the larger part comes first.
+
+    Parameters
+    ----------
+    surface : TriSurface
+        The surface.
+    singularities : sequence of Singularity
+        The configuration.
+    which : int
+        Which one, from 0.
+    apart : float, optional
+        As of `pair_at`.
+
+    Raises
+    ------
+    SingularityError
+        Its index is 1 or -1, it is locked, or there is no room.
+    """
+    whole = singularities[which]
+    name = f"#{which + 1}"
+    if abs(whole.index) < 2:
+        raise SingularityError(
+            f"a valence {whole.valence} cannot be split", name, "add a pair there instead"
+        )
+    if whole.locked:
+        raise SingularityError("the singularity is locked", name, "unlock it")
+    smaller = int(whole.index / 2)
+    others = [s for i, s in enumerate(singularities) if i != which]
+    ends = _ends(surface, others, whole.point, apart)
+    parts = (
+        replace(whole, point=ends[0], valence=4 - (whole.index - smaller)),
+        replace(whole, point=ends[1], valence=4 - smaller),
+    )
+    return (*singularities[:which], *parts, *singularities[which + 1 :])
+
+
+def _ends(
+    surface: TriSurface,
+    singularities: Sequence[Singularity],
+    point: SurfacePoint,
+    apart: float | None,
+) -> tuple[SurfacePoint, SurfacePoint]:
+    """Return two points about a place, along the direction that leaves the most room."""
+    if apart is None:
+        edge = float(surface.triangulation.lengths.mean())
+        apart = max(2 * edge, APART * float(np.sqrt(surface.area)))
+    obstacles = np.concatenate(
+        [
+            surface.positions([s.point for s in singularities]),
+            surface.vertices[surface.boundary_vertices],
+        ]
+    )
+    best, room = None, 0.0
+    for angle in np.linspace(0, np.pi, DIRECTIONS, endpoint=False):
+        half = 0.5 * apart * np.array([np.cos(angle), np.sin(angle)])
+        ends = straightest(surface, point, half), straightest(surface, point, -half)
+        gaps = np.linalg.norm(surface.positions(ends)[:, None] - obstacles, axis=2)
+        nearest = float(gaps.min(initial=np.inf))
+        if nearest > room:
+            best, room = ends, nearest
+    if best is None or room < 0.25 * apart:
+        raise SingularityError(
+            "there is no room for two singularities here",
+            f"they would be {apart:.3g} apart",
+            "choose a place farther from the others and from the boundary",
+        )
+    return best

@@ -1,0 +1,125 @@
+"""Configurations mirrored and turned, on surfaces that are about symmetrical."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from solvers.errors import SingularityError
+from solvers.singularities.budget import Singularity
+from solvers.surface.points import SurfacePoint
+from solvers.surface.triangulation import FloatArray
+from solvers.surface.trisurface import TriSurface
+
+FARTHEST = 0.02
+"""How far from the surface a singularity may be carried, in diagonals of the bounding box."""
+
+AXES = "xyz"
+
+
+def mirrored(
+    surface: TriSurface, singularities: Sequence[Singularity], axis: int
+) -> tuple[Singularity, ...]:
+    """Return the configuration's mirror image on the same surface.
+
+    The plane goes through the middle of the bounding box, across one of its axes; where the
+    surface is not symmetrical about it, through the centroid across a principal axis.
+
+    Parameters
+    ----------
+    surface : TriSurface
+        The surface.
+    singularities : sequence of Singularity
+        The configuration.
+    axis : {0, 1, 2}
+        The normal of the plane: x, y or z, or the principal axis nearest to it.
+
+    Raises
+    ------
+    SingularityError
+        The surface is not symmetrical enough, or a singularity that would move is locked.
+    """
+    matrix = np.eye(3)
+    matrix[axis, axis] = -1
+    return _carried(surface, singularities, matrix, f"mirrored across {AXES[axis]}")
+
+
+def turned(
+    surface: TriSurface, singularities: Sequence[Singularity], axis: int, angle: float
+) -> tuple[Singularity, ...]:
+    """Return the configuration turned on the same surface.
+
+    About an axis through the middle of the bounding box; where the surface is not symmetrical
+    about it, about a principal axis through the centroid.
+
+    Parameters
+    ----------
+    surface, singularities
+        As of `mirrored`.
+    axis : {0, 1, 2}
+        x, y or z, or the principal axis nearest to it.
+    angle : float
+        Radians.
+
+    Raises
+    ------
+    SingularityError
+        As of `mirrored`.
+    """
+    matrix = np.eye(3)
+    u, v = (axis + 1) % 3, (axis + 2) % 3
+    cosine, sine = np.cos(angle), np.sin(angle)
+    matrix[[u, u, v, v], [u, v, u, v]] = cosine, -sine, sine, cosine
+    what = f"turned by {np.degrees(angle):.4g} degrees about {AXES[axis]}"
+    return _carried(surface, singularities, matrix, what)
+
+
+def _carried(
+    surface: TriSurface, singularities: Sequence[Singularity], matrix: FloatArray, what: str
+) -> tuple[Singularity, ...]:
+    x = surface.positions([s.point for s in singularities])
+    tried = []
+    for centre, axes in _frames(surface):
+        image = (x - centre) @ axes.T @ matrix.T @ axes + centre
+        points = [surface.closest_point(place) for place in image]
+        apart = np.linalg.norm(surface.positions(points) - image, axis=1)
+        if apart.max(initial=0.0) <= FARTHEST * surface.diagonal:
+            return _placed(surface, singularities, points)
+        tried.append(float(apart.max()))
+    raise SingularityError(
+        "the surface is not symmetrical enough",
+        f"{what}, a singularity would be {min(tried):.3g} away from it",
+        "choose another axis",
+    )
+
+
+def _placed(
+    surface: TriSurface,
+    singularities: Sequence[Singularity],
+    points: list[SurfacePoint],
+) -> tuple[Singularity, ...]:
+    x = surface.positions([s.point for s in singularities])
+    away = np.linalg.norm(surface.positions(points) - x, axis=1) > 1e-9 * surface.diagonal
+    held = [i for i, s in enumerate(singularities) if s.locked and away[i]]
+    if held:
+        raise SingularityError(f"#{held[0] + 1} is locked", remedy="unlock it")
+    return tuple(
+        replace(s, point=point) if moves else s
+        for s, point, moves in zip(singularities, points, away, strict=True)
+    )
+
+
+def _frames(surface: TriSurface) -> Iterator[tuple[FloatArray, FloatArray]]:
+    """Yield centres (3,) and axes (3, 3; rows): of the bounding box, then the principal ones."""
+    low, high = surface.vertices.min(axis=0), surface.vertices.max(axis=0)
+    yield 0.5 * (low + high), np.eye(3)
+    areas, centres = surface.face_areas, surface.barycentres
+    centroid = areas @ centres / surface.area
+    spread = centres - centroid
+    axes = np.linalg.eigh((spread * areas[:, None]).T @ spread)[1].T
+    # Each in the place, and with the sign, of the coordinate axis that it is nearest to.
+    order = np.argsort(np.argmax(np.abs(axes), axis=1), kind="stable")
+    axes = axes[order]
+    yield centroid, axes * np.where(np.diagonal(axes) < 0, -1.0, 1.0)[:, None]

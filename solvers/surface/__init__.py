@@ -1,0 +1,1 @@
+"""The triangle surface: points, connectivity, validation, loops, paths, refinement."""

@@ -1,0 +1,70 @@
+"""Straight lines on a triangulated surface."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from solvers.surface.points import SurfacePoint
+from solvers.surface.triangulation import FloatArray
+from solvers.surface.trisurface import TriSurface
+
+
+def straightest(surface: TriSurface, start: SurfacePoint, vector: FloatArray) -> SurfacePoint:
+    """Return where a straight walk on the surface ends.
+
+    The walk goes straight on through triangles unfolded into one plane; at the boundary it ends.
+
+    Parameters
+    ----------
+    surface : TriSurface
+        The surface.
+    start : SurfacePoint
+        Where the walk starts.
+    vector : (2,) float array
+        Its direction and length, in the frame of the start's triangle.
+
+    Returns
+    -------
+    SurfacePoint
+    """
+    t = surface.triangulation
+    face, weights = start.face, np.array(start.barycentric)
+    place, left = weights @ t.corner_positions[face], np.array(vector, dtype=np.float64)
+    entered = -1
+    for _ in range(4 * t.n_faces):
+        corners = t.corner_positions[face]
+        sides = corners[[1, 2, 0]] - corners
+        # The walk leaves over the first side it crosses outwards.
+        outwards = left[0] * sides[:, 1] - left[1] * sides[:, 0]
+        gap = (corners - place) @ [[0.0, -1.0], [1.0, 0.0]]
+        reach = np.full(3, np.inf)
+        crossed = outwards > 1e-14 * np.abs(sides).max() * np.abs(left).max()
+        reach[crossed] = -np.einsum("ij,ij->i", gap, sides)[crossed] / outwards[crossed]
+        if entered >= 0:
+            reach[entered] = np.inf
+        side = int(np.argmin(reach))
+        step = max(float(reach[side]), 0.0)
+        if step >= 1:
+            return _point(face, corners, place + left)
+        place = place + step * left
+        h = 3 * face + side
+        g = int(t.twin[h])
+        if g < 0:
+            return _point(face, corners, place)
+        left = (1 - step) * left
+        along = np.linalg.norm(place - corners[side]) / np.linalg.norm(sides[side])
+        angle = t.transport[h]
+        turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+        left = turn @ left
+        face, entered = g // 3, g % 3
+        there = t.corner_positions[face]
+        place = there[(entered + 1) % 3] + along * (there[entered] - there[(entered + 1) % 3])
+    return _point(face, t.corner_positions[face], place)
+
+
+def _point(face: int, corners: FloatArray, place: FloatArray) -> SurfacePoint:
+    third = place[1] / corners[2, 1]
+    second = (place[0] - third * corners[2, 0]) / corners[1, 0]
+    weights = np.maximum([1 - second - third, second, third], 0.0)
+    weights /= weights.sum()
+    return SurfacePoint(face, (float(weights[0]), float(weights[1]), float(weights[2])))

@@ -1,0 +1,313 @@
+"""The surface: a validated, frozen, embedded triangulation."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from solvers.surface.points import SurfacePoint
+from solvers.surface.triangulation import FloatArray, IntArray, IntrinsicTriangulation
+from solvers.surface.validation import HalfedgePairs, problems
+
+
+class TriSurface:
+    """A connected, oriented, manifold triangle surface, with or without boundary.
+
+    Parameters
+    ----------
+    vertices : (n, 3) array_like of float
+        Coordinates.
+    faces : (m, 3) array_like of int
+        Corner vertices, counter-clockwise seen from outside.
+    trusted : bool, optional
+        Skip validation, for surfaces derived from a valid one.
+
+    Raises
+    ------
+    SurfaceError
+        If the arrays are anything else; it names the offending elements.
+    """
+
+    def __init__(
+        self, vertices: npt.ArrayLike, faces: npt.ArrayLike, *, trusted: bool = False
+    ) -> None:
+        self.vertices: FloatArray = np.array(vertices, dtype=np.float64)
+        self.faces: IntArray = np.array(faces, dtype=np.int64)
+        if not trusted:
+            for problem in problems(self.vertices, self.faces):
+                raise problem
+        self.vertices.flags.writeable = False
+        self.faces.flags.writeable = False
+
+    @property
+    def n_vertices(self) -> int:
+        """Number of vertices."""
+        return len(self.vertices)
+
+    @property
+    def n_faces(self) -> int:
+        """Number of triangles."""
+        return len(self.faces)
+
+    @cached_property
+    def triangulation(self) -> IntrinsicTriangulation:
+        """The surface's own connectivity and edge lengths."""
+        corners = self.vertices[self.faces]
+        lengths = np.linalg.norm(corners[:, [1, 2, 0]] - corners, axis=2)
+        twin = HalfedgePairs(self.n_vertices, self.faces).twin
+        return IntrinsicTriangulation(self.n_vertices, self.faces, twin, lengths)
+
+    @cached_property
+    def edges(self) -> IntArray:
+        """(ne, 2) end vertices of each edge."""
+        t = self.triangulation
+        return np.stack([t.tail, t.head], axis=1)[t.edge_halfedges]
+
+    @cached_property
+    def face_edges(self) -> IntArray:
+        """(m, 3) the edge that joins corner i and corner i + 1 of each face."""
+        t = self.triangulation
+        h = t.edge_halfedges
+        edge = np.empty(3 * self.n_faces, dtype=np.int64)
+        edge[h] = np.arange(len(h))
+        inner = t.twin[h] >= 0
+        edge[t.twin[h[inner]]] = np.flatnonzero(inner)
+        return edge.reshape(-1, 3)
+
+    @cached_property
+    def edge_faces(self) -> IntArray:
+        """(ne, 2) the faces left and right of each edge; -1 on the boundary."""
+        t = self.triangulation
+        right = t.twin[t.edge_halfedges]
+        return np.stack([t.edge_halfedges // 3, np.where(right >= 0, right // 3, -1)], axis=1)
+
+    @property
+    def euler_characteristic(self) -> int:
+        """V - E + F = 2 - 2 genus - boundary loops."""
+        return self.n_vertices - len(self.triangulation.edge_halfedges) + self.n_faces
+
+    @property
+    def genus(self) -> int:
+        """Number of handles."""
+        return (2 - self.euler_characteristic - len(self.boundary_loops)) // 2
+
+    @cached_property
+    def boundary_loops(self) -> tuple[IntArray, ...]:
+        """The vertices of each boundary loop, the surface on the left, the longest loop first."""
+        t = self.triangulation
+        following = dict(
+            zip(
+                t.tail[t.boundary_halfedges].tolist(),
+                t.head[t.boundary_halfedges].tolist(),
+                strict=True,
+            )
+        )
+        loops = []
+        while following:
+            start = min(following)
+            loop = [start]
+            vertex = following.pop(start)
+            while vertex != start:
+                loop.append(vertex)
+                vertex = following.pop(vertex)
+            loops.append(np.array(loop, dtype=np.int64))
+        # Equal lengths may differ by rounding; such loops keep the order of their first vertices.
+        return tuple(
+            sorted(loops, key=lambda loop: -round(self.loop_length(loop) / self.diagonal, 9))
+        )
+
+    def loop_length(self, loop: IntArray) -> float:
+        """Return the length of the closed polygon through vertices.
+
+        Parameters
+        ----------
+        loop : (k,) int array
+            The vertices in order, none repeated.
+        """
+        p = self.vertices[loop]
+        return float(np.linalg.norm(np.roll(p, -1, axis=0) - p, axis=1).sum())
+
+    @cached_property
+    def boundary_vertices(self) -> npt.NDArray[np.bool_]:
+        """(n,) whether each vertex lies on the boundary."""
+        mask = np.zeros(self.n_vertices, dtype=bool)
+        mask[self.triangulation.tail[self.triangulation.boundary_halfedges]] = True
+        return mask
+
+    @cached_property
+    def area_vectors(self) -> FloatArray:
+        """(m, 3) normal of each face, as long as its area."""
+        a, b, c = (self.vertices[self.faces[:, i]] for i in range(3))
+        return 0.5 * np.cross(b - a, c - a)
+
+    @cached_property
+    def face_areas(self) -> FloatArray:
+        """(m,) area of each triangle."""
+        return np.asarray(np.linalg.norm(self.area_vectors, axis=1))
+
+    @property
+    def area(self) -> float:
+        """Total area."""
+        return float(self.face_areas.sum())
+
+    @cached_property
+    def face_normals(self) -> FloatArray:
+        """(m, 3) unit normals."""
+        return self.area_vectors / self.face_areas[:, None]
+
+    @cached_property
+    def vertex_normals(self) -> FloatArray:
+        """(n, 3) area-weighted unit normals."""
+        total = np.stack(
+            [
+                np.bincount(
+                    self.faces.reshape(-1), np.repeat(self.area_vectors[:, i], 3), self.n_vertices
+                )
+                for i in range(3)
+            ],
+            axis=1,
+        )
+        return np.asarray(total / np.maximum(np.linalg.norm(total, axis=1), 1e-300)[:, None])
+
+    @cached_property
+    def face_frames(self) -> tuple[FloatArray, FloatArray]:
+        """Two (m, 3) unit vectors of each face: along its first edge, and 90 degrees further."""
+        along = self.vertices[self.faces[:, 1]] - self.vertices[self.faces[:, 0]]
+        along /= np.linalg.norm(along, axis=1)[:, None]
+        return along, np.cross(self.face_normals, along)
+
+    @cached_property
+    def barycentres(self) -> FloatArray:
+        """(m, 3) centre of each triangle."""
+        return np.asarray(self.vertices[self.faces].mean(axis=1))
+
+    @property
+    def angle_defects(self) -> FloatArray:
+        """(n,) integrated Gauss curvature (inside) or geodesic curvature (on the boundary)."""
+        return self.triangulation.curvatures
+
+    @cached_property
+    def diagonal(self) -> float:
+        """Length of the bounding box's diagonal."""
+        return float(np.linalg.norm(np.ptp(self.vertices, axis=0)))
+
+    @cached_property
+    def triangle_quality(self) -> FloatArray:
+        """(m,) 4 sqrt(3) area / sum of squared edges: 1 equilateral, 0 degenerate."""
+        squares = (self.triangulation.lengths**2).sum(axis=1)
+        return np.asarray(4 * np.sqrt(3) * self.face_areas / squares)
+
+    def position(self, point: SurfacePoint) -> FloatArray:
+        """Return the (3,) coordinates of a surface point.
+
+        Parameters
+        ----------
+        point : SurfacePoint
+            On this surface.
+        """
+        return np.asarray(point.barycentric) @ self.vertices[self.faces[point.face]]
+
+    def positions(self, points: Sequence[SurfacePoint]) -> FloatArray:
+        """Return the (k, 3) coordinates of surface points.
+
+        Parameters
+        ----------
+        points : sequence of SurfacePoint
+            On this surface, any number.
+        """
+        return np.array([self.position(point) for point in points]).reshape(-1, 3)
+
+    def point_at_vertex(self, vertex: int) -> SurfacePoint:
+        """Return a vertex as a surface point.
+
+        Parameters
+        ----------
+        vertex : int
+            Its number.
+        """
+        h = int(self._halfedge_from[vertex])
+        weights = [0.0, 0.0, 0.0]
+        weights[h % 3] = 1.0
+        return SurfacePoint(h // 3, (weights[0], weights[1], weights[2]))
+
+    @cached_property
+    def _halfedge_from(self) -> IntArray:
+        h = np.empty(self.n_vertices, dtype=np.int64)
+        h[self.triangulation.tail[::-1]] = np.arange(3 * self.n_faces)[::-1]
+        return h
+
+    def closest_point(self, position: npt.ArrayLike) -> SurfacePoint:
+        """Return the surface point nearest to a place in space.
+
+        Parameters
+        ----------
+        position : (3,) array_like
+            Coordinates.
+        """
+        x = np.asarray(position, dtype=np.float64)
+        to_centre = np.linalg.norm(self.barycentres - x, axis=1)
+        reach = self.triangulation.lengths.max(axis=1)
+        candidates = np.flatnonzero(to_centre - reach <= (to_centre + reach).min())
+        weights = closest_barycentric(self.vertices[self.faces[candidates]], x)
+        places = np.einsum("ki,kij->kj", weights, self.vertices[self.faces[candidates]])
+        best = int(np.argmin(np.linalg.norm(places - x, axis=1)))
+        w = weights[best]
+        return SurfacePoint(int(candidates[best]), (float(w[0]), float(w[1]), float(w[2])))
+
+
+def barycentric(triangles: FloatArray, position: FloatArray) -> FloatArray:
+    """Return the weights of the foot of the perpendicular from a place to planes of triangles.
+
+    Parameters
+    ----------
+    triangles : (k, 3, 3) float array
+        Corners.
+    position : (3,) or (k, 3) float array
+        The place, or one for each triangle.
+
+    Returns
+    -------
+    (k, 3) float array
+        Weights with sum 1; negative where the foot lies outside.
+    """
+    u = triangles[:, 1] - triangles[:, 0]
+    v = triangles[:, 2] - triangles[:, 0]
+    normal = np.cross(u, v)
+    squared = (normal**2).sum(axis=1)
+    to_x = position - triangles[:, 0]
+    second = (np.cross(to_x, v) * normal).sum(axis=1) / squared
+    third = (np.cross(u, to_x) * normal).sum(axis=1) / squared
+    return np.stack([1 - second - third, second, third], axis=1)
+
+
+def closest_barycentric(corners: FloatArray, x: FloatArray) -> FloatArray:
+    """Return the weights of the point of each triangle that is nearest to a place.
+
+    Parameters
+    ----------
+    corners : (k, 3, 3) float array
+        Corners of triangles.
+    x : (3,) or (k, 3) float array
+        The place, or one for each triangle.
+
+    Returns
+    -------
+    (k, 3) float array
+        Non-negative weights with sum 1; zeros are exact where the point lies on the border.
+    """
+    best = barycentric(corners, x)
+    distance = np.where((best >= 0).all(axis=1), 0.0, np.inf)
+    for i in range(3):
+        a, b = corners[:, i], corners[:, (i + 1) % 3]
+        along = b - a
+        t = np.clip(((x - a) * along).sum(axis=1) / (along**2).sum(axis=1), 0.0, 1.0)
+        gap = np.linalg.norm(a + t[:, None] * along - x, axis=1)
+        weights = np.zeros_like(best)
+        weights[:, i] = 1 - t
+        weights[:, (i + 1) % 3] = t
+        best = np.where((gap < distance)[:, None], weights, best)
+        distance = np.minimum(distance, gap)
+    return best

@@ -1,0 +1,1 @@
+"""Valid configurations: where a singularity may go, and the way to where it does."""

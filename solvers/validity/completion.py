@@ -1,0 +1,128 @@
+"""Where the indices that are missing would do the most good.
+
+An isotropic field's H costs the energy 1/2 int |grad H|^2. A singularity of index k at x lowers it
+by (pi/2) k H(x) and adds its own energy, which near a boundary grows as its mirror image comes
+near: -(pi/16) log of twice the distance for an index of 1 or -1 (Green's function of the half
+plane, Neumann). What is still missing is spread evenly meanwhile, so that H always exists.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Sequence
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from solvers.algebra.operators import lumped_mass
+from solvers.errors import SingularityError
+from solvers.fields.connection import QUARTER
+from solvers.fields.isotropic import IsotropicSolver
+from solvers.progress import Progress
+from solvers.singularities.budget import Singularity, index_budget
+from solvers.surface.triangulation import BoolArray, FloatArray
+
+SWEEPS = 2
+"""How often each is taken away and placed again, knowing all the others."""
+
+MOST = 64
+"""How many are placed at most."""
+
+CLEAR = 0.03
+"""How far from singularities and boundary places are looked for, in square roots of the area."""
+
+
+def missing_singularities(
+    solver: IsotropicSolver, singularities: Sequence[Singularity]
+) -> Generator[Progress, None, tuple[Singularity, ...]]:
+    """Find places for the valences 3 or 5 that the index budget lacks.
+
+    Greedily where the energy falls most, one back-substitution each; then each is placed again.
+
+    Parameters
+    ----------
+    solver : IsotropicSolver
+        On the surface, with its corners.
+    singularities : sequence of Singularity
+        What is there.
+
+    Returns
+    -------
+    tuple of Singularity
+        What to add, at vertices; all of valence 3 or all of valence 5.
+
+    Raises
+    ------
+    SingularityError
+        More are missing than can be placed.
+    """
+    surface = solver.surface
+    missing = index_budget(surface, singularities, solver.corners).missing
+    count = abs(missing)
+    if count > MOST:
+        raise SingularityError(
+            f"{count} singularities are missing", remedy="add one of a higher valence first"
+        )
+    if count == 0:
+        return ()
+    places = _Places(solver, singularities, 1 if missing > 0 else -1)
+    steps = count * (1 + SWEEPS)
+    for step in range(steps):
+        yield Progress("placing singularities", step / steps)
+        places.place(step % count)
+    valence = 3 if missing > 0 else 5
+    return tuple(Singularity(surface.point_at_vertex(v), valence) for v in places.chosen)
+
+
+class _Places:
+    """Vertices chosen for singularities of one index, and the field they leave."""
+
+    def __init__(
+        self, solver: IsotropicSolver, singularities: Sequence[Singularity], index: int
+    ) -> None:
+        self._solver = solver
+        self._index = index
+        self.chosen: list[int] = []
+        t, surface = solver.discretization.triangulation, solver.surface
+        self._mass = lumped_mass(t)
+        self._right = t.curvatures.copy()
+        for vertex, corner in solver.corners.items():
+            self._right[vertex] -= QUARTER * corner
+        faces, weights = solver.discretization.place([s.point for s in singularities])
+        indices = np.array([s.index for s in singularities], dtype=np.float64)
+        np.subtract.at(self._right, t.faces[faces], QUARTER * indices[:, None] * weights)
+        self._clear = CLEAR * float(np.sqrt(surface.area))
+        rim = surface.vertices[surface.boundary_vertices]
+        self._bias = np.zeros(surface.n_vertices)
+        self._open = ~surface.boundary_vertices
+        if len(rim):
+            to_rim = cKDTree(rim).query(surface.vertices)[0]
+            self._bias = np.log(np.maximum(to_rim, 1e-300)) / 8
+            self._open &= (to_rim > self._clear) | (to_rim >= 0.5 * to_rim.max())
+        self._shut(surface.positions([s.point for s in singularities]), self._open)
+
+    def place(self, number: int) -> None:
+        """Choose a vertex for one of them, all the others kept."""
+        others = [v for i, v in enumerate(self.chosen) if i != number]
+        open_ = self._open.copy()
+        self._shut(self._solver.surface.vertices[others], open_)
+        score = np.where(open_, self._index * self._field(others) + self._bias, -np.inf)
+        best = int(np.argmax(score))
+        self.chosen[number : number + 1] = [best]
+
+    def _field(self, vertices: list[int]) -> FloatArray:
+        """Return H of the configuration with some of its own, what is missing spread evenly."""
+        right = self._right.copy()
+        np.subtract.at(right, np.array(vertices, dtype=np.int64), QUARTER * self._index)
+        right -= right.sum() / self._mass.sum() * self._mass
+        h = np.zeros(len(right))
+        h[1:] = self._solver.factorization.solve(right[1:])
+        return h
+
+    def _shut(self, positions: FloatArray, open_: BoolArray) -> None:
+        """Take the surroundings of places out of the choice, as far as some is left."""
+        if not len(positions):
+            return
+        away = cKDTree(positions).query(self._solver.surface.vertices)[0]
+        near: BoolArray = away <= self._clear
+        if (open_ & ~near).any():
+            open_ &= ~near

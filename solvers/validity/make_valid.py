@@ -1,0 +1,259 @@
+"""From any configuration to a valid one: singularities moved as little as need be.
+
+Newton on the holonomy defects (Abel-Jacobi conditions), first towards zero, then, where the way
+is blocked, towards further quarter turns around single conditions: another layout of the same
+singularities. The points walk straight on the surface. At the end they are inserted as vertices of
+the refined surface, where the defects of a fresh operator are corrected until they vanish too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import product
+from typing import Literal
+
+import numpy as np
+
+from solvers.errors import SingularityError
+from solvers.fields.connection import Condition
+from solvers.fields.isotropic import IsotropicSolver
+from solvers.progress import Progress, relayed
+from solvers.singularities.budget import Singularity, require_budget
+from solvers.singularities.pairs import pair_at
+from solvers.singularities.placing import far_points
+from solvers.surface.triangulation import FloatArray
+from solvers.surface.trisurface import TriSurface
+from solvers.validity.search import TOLERANCE, TOO_FEW, Blocked, Moved, Search
+
+__all__ = ["TOLERANCE", "Moved", "Offer", "ValidityError", "make_valid"]
+
+NEAREST = 16
+"""How many layouts are tried before something else is offered."""
+
+FARTHER = 8
+"""How many layouts that are farther off are tried for an offer."""
+
+SITES, AIMS = 3, 3
+"""How many places, and how many layouts at each, are tried for one more pair."""
+
+
+@dataclass(frozen=True)
+class Offer:
+    """What helps where moving the singularities to the nearest layouts does not.
+
+    Parameters
+    ----------
+    kind : {"turns", "pair", "anisotropic"}
+        Another holonomy integer, one more pair, or another method.
+    label : str
+        In plain words, as an imperative.
+    singularities : tuple of Singularity or None
+        The valid configuration that it leads to, tried and verified; None: none is needed.
+    """
+
+    kind: Literal["turns", "pair", "anisotropic"]
+    label: str
+    singularities: tuple[Singularity, ...] | None = None
+
+
+class ValidityError(SingularityError):
+    """A configuration that could not be made valid.
+
+    Parameters
+    ----------
+    what, where, remedy : str
+        As in `CrossviewError`.
+    condition : int
+        The holonomy condition in the way.
+    offers : tuple of Offer
+        What helps, the least change first.
+    """
+
+    def __init__(
+        self, what: str, where: str, remedy: str, condition: int, offers: tuple[Offer, ...]
+    ) -> None:
+        super().__init__(what, where, remedy)
+        self.condition = condition
+        self.offers = offers
+
+
+def make_valid(
+    surface: TriSurface,
+    singularities: Sequence[Singularity],
+    corners: Mapping[int, int] | None = None,
+    levels: int = 3,
+) -> Generator[Progress, None, Moved]:
+    """Move the unlocked singularities until every holonomy defect is below 1e-6 degrees.
+
+    Parameters
+    ----------
+    surface : TriSurface
+        The surface.
+    singularities : sequence of Singularity
+        A configuration that meets the index budget.
+    corners : mapping of int to int, optional
+        As for `IsotropicSolver`.
+    levels : int, optional
+        Of refinement at the singularities, for the final check.
+
+    Returns
+    -------
+    Moved
+        The valid configuration, verified by a fresh operator.
+
+    Raises
+    ------
+    SingularityError
+        If the index budget is missed.
+    ValidityError
+        If there is no valid configuration near enough; it says which condition is in the way and
+        why, and what helps.
+    """
+    solver = IsotropicSolver(surface, corners)
+    require_budget(surface, singularities, solver.corners)
+    attempt = _Attempt(solver, corners, levels)
+    return (yield from attempt.make_valid(tuple(singularities)))
+
+
+class _Attempt:
+    """Tries on one surface; the operator and its potentials are kept."""
+
+    def __init__(
+        self, solver: IsotropicSolver, corners: Mapping[int, int] | None, levels: int
+    ) -> None:
+        self._surface = solver.surface
+        self._guide = solver.holonomy
+        self._corners = corners
+        self._levels = levels
+
+    def make_valid(self, start: tuple[Singularity, ...]) -> Generator[Progress, None, Moved]:
+        """Take the nearest layout that can be reached, or say what helps."""
+        if _impossible(self._surface, start):
+            why, remaining = "", self._guide.defects(start)
+        else:
+            try:
+                return (yield from self._nearest(start, _near(self._guide.defects(start))))
+            except Blocked as blocked:
+                why, remaining = blocked.why, blocked.remaining
+        offers = yield from self._offers(start, why)
+        raise _refusal(why, remaining, self._guide.conditions, offers)
+
+    def _nearest(
+        self, start: tuple[Singularity, ...], aims: Sequence[tuple[int, ...]]
+    ) -> Generator[Progress, None, Moved]:
+        """Try layouts one after the other; what blocks the first tells why all failed."""
+        first: Blocked | None = None
+        for turns in aims:
+            search = Search(self._surface, self._guide, start)
+            try:
+                moved = yield from search.approach(start, turns)
+                end = yield from search.verify(moved, turns, self._corners, self._levels)
+                return replace(end, layout=_in_words(turns, self._guide.conditions))
+            except Blocked as blocked:
+                first = first or blocked
+                if first.why == TOO_FEW:
+                    break
+        raise first or Blocked(TOO_FEW, self._guide.defects(start))
+
+    def _offers(
+        self, start: tuple[Singularity, ...], why: str
+    ) -> Generator[Progress, None, tuple[Offer, ...]]:
+        found = []
+        if why not in ("", TOO_FEW):
+            farther = yield from self._tried("trying other layouts", start, self._far(start))
+            if farther is not None:
+                found.append(Offer("turns", f"Aim at {farther.layout}", farther.singularities))
+        sites = yield from far_points(self._surface, start, SITES)
+        for site in sites:
+            try:
+                more = (*start, *pair_at(self._surface, start, site))
+            except SingularityError:  # no room here
+                continue
+            aims = _near(self._guide.defects(more))[:AIMS]
+            paired = yield from self._tried("trying one more pair", more, aims)
+            if paired is not None:
+                place = ", ".join(f"{x:.3g}" for x in self._surface.position(site))
+                found.append(
+                    Offer("pair", f"Add a pair of 3 and 5 near ({place})", paired.singularities)
+                )
+                break
+        if why:
+            found.append(Offer("anisotropic", "Solve the anisotropic field"))
+        return tuple(found)
+
+    def _tried(
+        self, stage: str, start: tuple[Singularity, ...], aims: Sequence[tuple[int, ...]]
+    ) -> Generator[Progress, None, Moved | None]:
+        """Return where a try for an offer leads; None where it is blocked."""
+
+        def plainly(step: Progress) -> Progress:
+            return Progress(stage, step.fraction)
+
+        try:
+            return (yield from relayed(self._nearest(start, aims), plainly))
+        except Blocked:
+            return None
+
+    def _far(self, start: tuple[Singularity, ...]) -> list[tuple[int, ...]]:
+        """Return layouts beyond those of `_near`, one condition a quarter turn or two farther."""
+        defects = self._guide.defects(start)
+        tried = set(_near(defects))
+        alone = np.eye(len(defects), dtype=int)
+        aims = [tuple((n * row).tolist()) for row in alone for n in (-2, -1, 1, 2)]
+        return _sorted(defects, (turns for turns in aims if turns not in tried))[:FARTHER]
+
+
+def _impossible(surface: TriSurface, singularities: Sequence[Singularity]) -> bool:
+    """Whether this is a torus with one valence 3 and one valence 5 (Izmestiev et al. 2013)."""
+    indices = sorted(s.index for s in singularities)
+    return surface.genus == 1 and not surface.boundary_loops and indices == [-1, 1]
+
+
+def _near(defects: FloatArray) -> list[tuple[int, ...]]:
+    """Return the quarter turns to aim at, the nearest first: on the defects' own side."""
+    sides = [int(np.sign(r)) or 1 for r in defects]
+    aims = (
+        tuple(n * side for n, side in zip(chosen, sides, strict=True))
+        for chosen in product((0, 1), repeat=len(defects))
+        if sum(chosen) <= 2
+    )
+    return _sorted(defects, aims)[:NEAREST]
+
+
+def _sorted(defects: FloatArray, aims: Iterator[tuple[int, ...]]) -> list[tuple[int, ...]]:
+    quarters = defects / (np.pi / 2)
+    return sorted(aims, key=lambda turns: float(np.linalg.norm(quarters - turns)))
+
+
+def _in_words(turns: Sequence[int], conditions: Sequence[Condition]) -> str:
+    parts = [
+        f"{90 * n:+d} degrees {_around(condition)}"
+        for n, condition in zip(turns, conditions, strict=True)
+        if n
+    ]
+    return " and ".join(parts)
+
+
+def _around(condition: Condition) -> str:
+    return condition.label if condition.kind == "boundary" else f"around {condition.label}"
+
+
+def _refusal(
+    why: str, defects: FloatArray, conditions: Sequence[Condition], offers: tuple[Offer, ...]
+) -> ValidityError:
+    worst = int(np.argmax(np.abs(defects)))
+    remedy = " or ".join(offer.label[:1].lower() + offer.label[1:] for offer in offers)
+    if not why:
+        what = "a torus with one valence 3 and one valence 5 is never valid, wherever they are"
+        remedy = remedy or "add a pair of singularities"
+        return ValidityError(what, "Izmestiev et al. 2013", remedy, worst, offers)
+    if why == TOO_FEW:
+        remedy = f"unlock some, or {remedy}"
+    return ValidityError(
+        f"the configuration cannot be made valid by moving its singularities: {why}",
+        f"{conditions[worst].label}, {np.degrees(abs(defects[worst])):.3g} degrees off",
+        remedy,
+        worst,
+        offers,
+    )

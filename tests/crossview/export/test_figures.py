@@ -1,0 +1,135 @@
+"""Figures of a solved case: files, pixels, vectors, and refusals."""
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from crossview.cases.model import Case
+from crossview.export.figures import render, render_view
+from crossview.scene import Marker, field_view
+from crossview.view.colors import CUT, valence_color
+from crossview.workflow.pipeline import Solution, solve_case
+from solvers.errors import CrossviewError
+from solvers.progress import run
+
+SIZE = (400, 300)
+
+
+@pytest.fixture(scope="module")
+def solution() -> Solution:
+    places = [
+        ((0.5, 0.0, 0.0), 3),
+        ((-0.5, 0.0, 0.0), 3),
+        ((0.0, 0.5, 0.0), 3),
+        ((0.0, -0.5, 0.0), 3),
+    ]
+    case = Case.from_json(
+        {
+            "surface": {"builtin": "disk", "edge_length": 0.1},
+            "singularities": [{"position": list(p), "valence": n} for p, n in places],
+        },
+        Path(),
+    )
+    (solved,) = run(solve_case(case))
+    return solved
+
+
+def count(image: Image.Image, color: str, tolerance: int = 3) -> int:
+    wanted = [int(color[i : i + 2], 16) for i in (1, 3, 5)]
+    pixels = np.asarray(image.convert("RGB"), int)
+    return int((np.abs(pixels - wanted) <= tolerance).all(axis=-1).sum())
+
+
+def test_png_of_the_size_asked_with_the_colours_of_the_paper(solution, tmp_path):
+    path = render(solution, tmp_path / "a.png", size=SIZE, scale=2)
+    image = Image.open(path)
+    assert image.size == (800, 600)
+    assert count(image, valence_color(3)) > 400
+    assert image.convert("RGB").getpixel((0, 0)) == (255, 255, 255)
+
+
+def test_only_the_layers_asked_are_drawn(solution, tmp_path):
+    names = ["surface", "boundary", "cut"]
+    image = Image.open(render(solution, tmp_path / "a.png", layers=names, size=SIZE))
+    assert count(image, valence_color(3)) == 0
+    assert count(image, CUT, 30) > 50
+    grey = np.asarray(image.convert("RGB"), int)
+    colourful = np.ptp(grey, axis=-1) > 60
+    assert colourful.mean() < 0.03
+
+
+def test_transparent_has_no_background_but_the_same_surface(solution, tmp_path):
+    opaque = Image.open(render(solution, tmp_path / "a.png", size=SIZE)).convert("RGB")
+    clear = Image.open(render(solution, tmp_path / "b.png", size=SIZE, transparent=True))
+    assert clear.mode == "RGBA"
+    assert clear.getpixel((0, 0))[3] == 0
+    middle = (150, 150)
+    assert clear.getpixel(middle) == (*opaque.getpixel(middle), 255)
+    on_white = Image.new("RGBA", clear.size, "white")
+    on_white.alpha_composite(clear)
+    off = np.abs(np.asarray(on_white.convert("RGB"), int) - np.asarray(opaque, int))
+    assert np.mean(off.max(axis=-1) > 24) < 0.01
+
+
+def test_scale_keeps_the_layout(solution, tmp_path):
+    small = Image.open(render(solution, tmp_path / "a.png", size=SIZE)).convert("RGB")
+    large = Image.open(render(solution, tmp_path / "b.png", size=SIZE, scale=3)).convert("RGB")
+    off = np.abs(np.asarray(large.reduce(3), int) - np.asarray(small, int)).max(axis=-1)
+    assert off.mean() < 6.0
+
+
+def test_svg_has_true_lines_discs_and_words(solution, tmp_path):
+    names = ["surface", "H", "crosses", "singularities", "cut", "boundary", "legend", "axes"]
+    text = render(solution, tmp_path / "a.svg", layers=names, size=SIZE).read_text()
+    assert text.count("<image") == 1
+    assert text.count("<path") > 800
+    assert text.count(valence_color(3)) >= 5
+    assert CUT in text
+    words = re.findall(r"<text[^>]*>([^<]*)</text>", text)
+    assert {"valence", "3", "H", "0"} <= set(words)
+    assert (tmp_path / "a.svg").read_text() == render(
+        solution, tmp_path / "b.svg", layers=names, size=SIZE
+    ).read_text()
+
+
+def test_pdf_is_one_page_of_the_layouts_size(solution, tmp_path):
+    data = render(solution, tmp_path / "a.pdf", size=SIZE).read_bytes()
+    assert data.startswith(b"%PDF")
+    assert b"/MediaBox [ 0 0 144 108 ]" in data
+
+
+def test_what_the_surface_hides_is_no_vector_either(tmp_path):
+    case = Case.from_json({"surface": {"builtin": "torus", "n": 48}}, Path())
+    (solved,) = run(solve_case(case))
+    seen, hidden = Marker((0.0, 0.0, 0.4), 6), Marker((0.0, 1.0, -0.4), 8)
+    view = replace(
+        field_view(solved.field),
+        singularities=(replace(seen, position=(1.0, 0.0, 0.4)), hidden),
+    ).with_layer("legend", visible=False)
+    text = render_view(view, tmp_path / "a.svg", size=SIZE, camera="xy").read_text()
+    assert valence_color(6) in text
+    assert valence_color(8) not in text
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "words"),
+    [
+        ("a.jpeg", {}, r"unknown kind of figure.*\.png, \.svg, \.pdf"),
+        ("a.png", {"layers": ["H", "sparkles"]}, r'no layer "sparkles".*crosses'),
+        ("a.png", {"layers": ["guide"]}, "the guide shows where one singularity may be dragged"),
+        ("a.png", {"camera": "sideways"}, r'no camera "sideways".*iso'),
+        ("a.png", {"size": (4, 3)}, "cannot draw 4 x 3 pixels"),
+        ("a.png", {"size": (4000, 3000), "scale": 10}, "cannot draw 40000 x 30000 pixels"),
+    ],
+)
+def test_mistakes_are_told_in_one_line_and_nothing_is_written(
+    solution, tmp_path, name, options, words
+):
+    with pytest.raises(CrossviewError, match=words) as caught:
+        render(solution, tmp_path / name, **options)
+    assert "\n" not in str(caught.value)
+    assert list(tmp_path.iterdir()) == []

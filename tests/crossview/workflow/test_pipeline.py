@@ -1,0 +1,113 @@
+"""The pipeline keeps what the next solve can use, and never what it cannot."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from crossview.cases.json_values import CaseError
+from crossview.cases.model import Builtin, Case, Options, PlacedCorner, PlacedSingularity
+from crossview.workflow.pipeline import Pipeline, solve_case
+from crossview.workflow.problem import Problem
+from solvers.errors import SingularityError
+from solvers.progress import run
+from solvers.singularities.budget import Singularity
+
+
+def annulus(*valences, refine=1):
+    """An annulus with singularities of these valences, evenly around."""
+    angles = np.arange(len(valences)) * 2 * np.pi / len(valences)
+    placed = [
+        PlacedSingularity((0.7 * np.cos(a), 0.7 * np.sin(a), 0.0), valence)
+        for a, valence in zip(angles, valences, strict=True)
+    ]
+    return Case(Builtin("annulus"), tuple(placed), options=Options(refine=refine))
+
+
+def with_valences(problem, *valences):
+    changed = zip(problem.singularities, valences, strict=True)
+    return replace(problem, singularities=tuple(replace(s, valence=v) for s, v in changed))
+
+
+def test_changing_a_valence_keeps_the_factor_and_gives_the_fresh_answer():
+    problem = Problem.from_case(annulus(3, 5, 3, 5))
+    other = with_valences(problem, 2, 5, 5, 4)
+    pipeline = Pipeline()
+    first = run(pipeline.solve(problem))
+    second = run(pipeline.solve(other))
+    assert second.solver is first.solver
+    assert second.refinement is first.refinement
+    fresh = run(Pipeline().solve(other))
+    assert fresh.solver is not first.solver
+    assert np.abs(second.field.H - fresh.field.H).max() < 1e-12
+    assert np.abs(second.holonomy_defects - fresh.holonomy_defects).max() < 1e-12
+
+
+@pytest.mark.parametrize("change", ["place", "refine", "corners", "surface"])
+def test_other_changes_start_afresh(change):
+    problem = Problem.from_case(annulus(3, 5))
+    moved = problem.surface.point_at_vertex(int(problem.surface.faces[2000, 0]))
+    assert not problem.surface.boundary_vertices[problem.surface.faces[2000, 0]]
+    ends = [int(loop[0]) for loop in problem.surface.boundary_loops]
+    changed = {
+        "place": replace(problem, singularities=(problem.singularities[0], Singularity(moved, 5))),
+        "refine": replace(problem, options=Options(refine=2)),
+        "corners": replace(problem, corners=dict(zip(ends, (1, -1), strict=True))),
+        "surface": Problem.from_case(annulus(3, 5)),
+    }[change]
+    pipeline = Pipeline()
+    first = run(pipeline.solve(problem))
+    second = run(pipeline.solve(changed))
+    assert second.solver is not first.solver
+    fresh = run(Pipeline().solve(changed))
+    assert np.abs(second.field.H - fresh.field.H).max() < 1e-12
+
+
+def test_singularities_become_vertices_where_they_were_placed():
+    solution = run(Pipeline().solve(Problem.from_case(annulus(3, 5, 3, 5))))
+    before = solution.problem.surface.positions([s.point for s in solution.problem.singularities])
+    after = solution.surface.positions([s.point for s in solution.singularities])
+    assert np.allclose(before, after, atol=1e-12)
+    assert all(max(s.point.barycentric) == 1 for s in solution.singularities)
+
+
+def test_a_missed_budget_is_told_before_anything_is_computed():
+    problem = Problem.from_case(annulus(3, 3))
+    steps = []
+    with pytest.raises(SingularityError, match=r"2 of 0: add 2 valence 5 or .* or make #1"):
+        run(Pipeline().solve(problem), steps.append)
+    assert steps == []
+
+
+def test_progress_grows_and_names_its_stages():
+    steps = []
+    (solution,) = run(solve_case(annulus(3, 5)), steps.append)
+    fractions = [step.fraction for step in steps]
+    assert fractions == sorted(fractions)
+    assert steps[0].stage == "reading the surface"
+    assert list(solution.seconds) == ["read", "refine", "factor", "solve", "holonomy", "verdict"]
+
+
+def test_a_problem_becomes_the_case_it_came_from():
+    corner = PlacedCorner((1.0, 0.0, 0.0), 1)
+    case = replace(annulus(3, 5, 6), corners=(corner,), title="three")
+    locked = tuple(replace(s, locked=True) for s in case.singularities)
+    case = replace(case, singularities=locked)
+    again = Problem.from_case(case).to_case(case.surface, case.title)
+    assert replace(again, singularities=(), corners=None) == replace(
+        case, singularities=(), corners=None
+    )
+    for one, other in zip(case.singularities, again.singularities, strict=True):
+        assert (one.valence, one.locked) == (other.valence, other.locked)
+        # the annulus is a polygon: places move to it
+        assert np.allclose(one.position, other.position, atol=1e-12)
+    assert again.corners[0].index == 1
+    assert np.allclose(again.corners[0].position, corner.position)
+
+
+def test_all_components_are_no_single_problem():
+    case = replace(annulus(), options=Options(component="all"))
+    with pytest.raises(CaseError, match="one is wanted"):
+        Problem.from_case(case)

@@ -1,0 +1,133 @@
+"""Natural singularities: the budget always, and the anticube on the sphere."""
+
+import numpy as np
+import pytest
+
+from solvers.errors import CrossviewError
+from solvers.features.edges import Features
+from solvers.features.sharp_edges import sharp_edges
+from solvers.fields.natural import METHODS, CrossesStep, natural_singularities
+from solvers.fields.principal import principal_crosses
+from solvers.primitives import BUILTIN
+from solvers.progress import relayed, run
+from solvers.singularities.budget import default_corners, index_budget
+from solvers.surface.triangulation import wrap
+from solvers.surface.trisurface import TriSurface
+from tests.solvers.suite import SURFACES
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("name", SURFACES)
+def test_indices_sum_to_the_budget(name: str, method: str) -> None:
+    surface = SURFACES[name]()
+    found = run(natural_singularities(surface, method))
+    assert index_budget(surface, found, default_corners(surface)).satisfied
+    positions = surface.positions([s.point for s in found])
+    boundary = surface.vertices[surface.boundary_vertices]
+    if len(found) and len(boundary):
+        assert np.linalg.norm(positions[:, None] - boundary, axis=2).min() > 0
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("name", ["square", "annulus", "cylinder"])
+def test_no_singularity_where_none_is_needed(name: str, method: str) -> None:
+    assert run(natural_singularities(SURFACES[name](), method)) == ()
+
+
+def anticube() -> np.ndarray:
+    """The corners of the square antiprism that eight equal charges take on the sphere."""
+    latitude = np.radians(34.1)
+    angles = np.pi / 2 * np.arange(4)
+    rings = [
+        (np.cos(latitude) * np.cos(a + turn), np.cos(latitude) * np.sin(a + turn), sign)
+        for turn, sign in ((0, 1), (np.pi / 4, -1))
+        for a in angles
+    ]
+    return np.array([(x, y, sign * np.sin(latitude)) for x, y, sign in rings])
+
+
+def misfit(points: np.ndarray) -> float:
+    """Degrees by which the sorted mutual angles differ from those of the anticube."""
+
+    def angles(x: np.ndarray) -> np.ndarray:
+        cosine = np.clip(x @ x.T, -1, 1)[np.triu_indices(len(x), 1)]
+        return np.sort(np.degrees(np.arccos(cosine)))
+
+    return float(np.abs(angles(points) - angles(anticube())).mean())
+
+
+@pytest.mark.parametrize("method", ["mbo", "ginzburg-landau"])
+def test_the_sphere_has_the_anticube(method: str) -> None:
+    surface = BUILTIN["sphere"](subdivisions=4)
+    fits = []
+    for seed in range(3):
+        found = run(natural_singularities(surface, method, seed))
+        assert [s.valence for s in found] == [3] * 8
+        points = surface.positions([s.point for s in found])
+        fits.append(misfit(points / np.linalg.norm(points, axis=1)[:, None]))
+    assert max(fits) < 2.5
+
+
+def test_an_unknown_method_is_refused() -> None:
+    with pytest.raises(CrossviewError, match="one of mbo, ginzburg-landau, globally-optimal"):
+        run(natural_singularities(SURFACES["disk"](), "best"))
+
+
+def direction_off(surface, step: CrossesStep, directions: np.ndarray) -> np.ndarray:
+    """Degrees between the cross of each triangle and a direction (m, 3), 0 to 45."""
+    along, across = surface.face_frames
+    angle = np.arctan2((across * directions).sum(axis=1), (along * directions).sum(axis=1))
+    return np.degrees(np.abs(wrap(step.theta - angle, np.pi / 2)))
+
+
+def around(surface) -> np.ndarray:
+    """The direction around the z axis in each triangle."""
+    x, y, _ = surface.barycentres.T
+    return np.stack([-y, x, np.zeros_like(x)], axis=1)
+
+
+@pytest.mark.parametrize("name", ["cylinder", "torus"])
+def test_principal_directions_run_around_and_along(name: str) -> None:
+    surface = SURFACES[name]()
+    step = CrossesStep("", 0.0, surface, principal_crosses(surface))
+    assert np.median(direction_off(surface, step, around(surface))) < 1
+    assert 0.5 < np.median(np.abs(step.z)) < 1.5
+
+
+@pytest.mark.parametrize("name", ["square", "sphere"])
+def test_nothing_draws_where_both_curvatures_agree(name: str) -> None:
+    assert np.abs(principal_crosses(BUILTIN[name]())).max() < 0.1
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_crosses_are_drawn_along_curvature(method: str) -> None:
+    surface = SURFACES["torus"]()
+    seen: list[CrossesStep] = []
+
+    def look(step):
+        seen.append(step) if isinstance(step, CrossesStep) else None
+        return step
+
+    found = run(relayed(natural_singularities(surface, method, alignment="curvature"), look))
+    assert found == ()
+    if method != "globally-optimal":  # which takes one step
+        assert np.median(direction_off(surface, seen[-1], around(surface))) < 1
+
+
+def test_a_cone_of_features_gathers_singularities_at_its_corners() -> None:
+    sphere = BUILTIN["cube_sphere"](n=12)
+    cube = TriSurface(sphere.vertices / np.abs(sphere.vertices).max(axis=1)[:, None], sphere.faces)
+    features = Features(cube, sharp_edges(cube, 40))
+    for method in METHODS:
+        found = run(natural_singularities(cube, method, features=features))
+        places = cube.positions([s.point for s in found])
+        assert [s.valence for s in found] == [3] * 8
+        assert np.abs(places) == pytest.approx(np.ones((8, 3)))
+
+
+@pytest.mark.parametrize(
+    "wrong", [{"alignment": "symmetry"}, {"alignment": "curvature", "weight": -1.0}]
+)
+def test_wrong_options_are_refused(wrong: dict) -> None:
+    with pytest.raises(CrossviewError, match=r"smoothness, curvature|weight"):
+        run(natural_singularities(SURFACES["disk"](), **wrong))
