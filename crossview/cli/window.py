@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import os
 import sys
+from importlib.util import find_spec
 
 from crossview.cases.gallery import find_case
 from solvers.errors import CrossviewError
@@ -22,10 +23,29 @@ def window(file: str | None = None, /) -> int:
     """
     if file is not None:
         find_case(file)  # what is not there is told here, not by an empty window
+    require_qt(file)
     require_display(file)
     from crossview.gui.app import run  # Qt is loaded only for the window
 
     return run(file)
+
+
+def require_qt(file: str | None) -> None:
+    """Refuse where crossview is installed without what only the window needs.
+
+    Raises
+    ------
+    CrossviewError
+        PySide6 or pyvistaqt is missing.
+    """
+    missing = [name for name in ("PySide6", "pyvistaqt") if find_spec(name) is None]
+    if missing:
+        raise CrossviewError(
+            f"the window needs {' and '.join(missing)}",
+            "not installed",
+            f"pip install {' '.join(missing)}, or draw without a window: "
+            f"crossview render {file or 'CASE'} -o figure.png",
+        )
 
 
 def require_display(file: str | None) -> None:
