@@ -1,8 +1,9 @@
 """Separatrices that nearly meet a singularity, and the map in which they do.
 
 A trace that passes a node closer than the mesh resolves is taken to mean it: that its node and the
-one it passes lie on one line of the map becomes a condition on the map. Where the field may be
-turned as a whole, it is turned to where most neighbours lie on common lines.
+one it passes lie on one line of the map becomes a condition on the map. So it does where a trace
+ends at a node that lies off it by more than rounding. Where the field may be turned as a whole, it
+is turned to where most neighbours lie on common lines.
 """
 
 from __future__ import annotations
@@ -11,8 +12,9 @@ import numpy as np
 from scipy.sparse import coo_array, csc_array
 
 from solvers.layouts.charts import AXES, QUARTER, ComplexArray
-from solvers.layouts.crossings import Crossings
-from solvers.layouts.tracing import Traces
+from solvers.layouts.crossings import Crossings, ends_of
+from solvers.layouts.stops import doubled
+from solvers.layouts.tracing import NODE, Traces
 from solvers.surface.triangulation import FloatArray, IntArray, wrap
 
 NEAR = 0.02
@@ -20,6 +22,9 @@ NEAR = 0.02
 
 ACCIDENT = 0.2
 """And if so near a passing by accident is less likely than this."""
+
+ROUNDING = 1e-9
+"""How far beside its end a trace may run for nothing but rounding, in typical edges of the map."""
 
 ALIKE = np.radians(1.0)
 """Spread of the directions between nodes that count as one when a turn is chosen."""
@@ -41,7 +46,7 @@ def passing(traces: Traces, crossings: Crossings, n_nodes: int) -> IntArray:
         Where a trace meets one that leaves the node at right angles: the chords of both. The
         least accidental come first; most that mean the same line are left out.
     """
-    both = [crossings, Crossings(*(values[:, ::-1] for values in vars(crossings).values()))]
+    both = [crossings, crossings.exchanged]
     chord = np.concatenate([c.chord for c in both])
     trace = np.concatenate([c.trace for c in both])
     at = np.concatenate([c.at for c in both])
@@ -64,6 +69,22 @@ def _one_way(traces: Traces, trace: IntArray, length: FloatArray) -> IntArray:
     return np.sort(np.unique(lines, axis=0, return_index=True)[1])
 
 
+def beside(traces: Traces) -> IntArray:
+    """Return the last chords (e,) of traces that end at a node but run beside it, each line once.
+
+    Parameters
+    ----------
+    traces : Traces
+        The traces.
+    """
+    chart, chords = traces.chart, traces.chords
+    last = (traces.offsets[1:] - 1)[(traces.ends == NODE) & ~doubled(traces)]
+    final = chords[last]
+    enters, leaves = ends_of(chart, final)
+    off = ((leaves - enters) * AXES[final.axis].conj()).imag
+    return last[np.abs(off) > ROUNDING * chart.edge_length]
+
+
 def conditions(traces: Traces, passed: IntArray, turn: float) -> csc_array:
     """Return the rows (p, 6 m) that take the passed nodes onto the traces.
 
@@ -81,23 +102,57 @@ def conditions(traces: Traces, passed: IntArray, turn: float) -> csc_array:
     sparse array
         Coefficients of the components of images: the offsets of the nodes from the traces.
     """
-    chords = traces.chords
-    rows, columns, values = [], [], []
-    for number, (a, b) in enumerate(passed):
-        over = _corner_steps(traces, a)
-        back = _corner_steps(traces, b)
-        turned = AXES[chords.axis[b]] / AXES[chords.axis[a]]
+    axis, face = traces.chords.axis, traces.chords.face
+    ways = []
+    for a, b in passed:
+        over, back = _corner_steps(traces, a), _corner_steps(traces, b)
         between = _steps(_reference(traces, a), _reference(traces, b))
-        here = 3 * chords.face[a]
-        halfedge = np.concatenate([over[0], here + between[0], back[0]])
-        factor = np.concatenate(
-            [over[1], between[1] / AXES[chords.axis[a]], -turned * back[1]]
-        ) * np.exp(-1j * turn)
+        halfedge = np.concatenate([over[0], 3 * face[a] + between[0], back[0]])
+        turned = AXES[axis[b]] / AXES[axis[a]]
+        factor = [over[1], between[1] / AXES[axis[a]], -turned * back[1]]
+        ways.append((halfedge, np.concatenate(factor)))
+    return _offsets_across(traces, ways, turn)
+
+
+def ending(traces: Traces, last: IntArray, turn: float) -> csc_array:
+    """Return the rows (e, 6 m) that take the nodes where traces end onto them.
+
+    Parameters
+    ----------
+    traces : Traces
+        In the map of images turned by `-turn`.
+    last : (e,) int array
+        The last chords of the traces, as `beside` returns them.
+    turn : float
+        See `traces`, radians.
+
+    Returns
+    -------
+    sparse array
+        As `conditions`.
+    """
+    chords = traces.chords
+    ways = []
+    for a in last:
+        over = _corner_steps(traces, a)
+        on = _steps(_reference(traces, a), int(chords.side_out[a]))
+        halfedge = np.concatenate([over[0], 3 * chords.face[a] + on[0]])
+        ways.append((halfedge, np.concatenate([over[1], on[1] / AXES[chords.axis[a]]])))
+    return _offsets_across(traces, ways, turn)
+
+
+def _offsets_across(
+    traces: Traces, ways: list[tuple[IntArray, ComplexArray]], turn: float
+) -> csc_array:
+    """Return rows whose products with the images are the parts of ways across their traces."""
+    rows, columns, values = [], [], []
+    for number, (halfedge, factor) in enumerate(ways):
         # Across the trace: the imaginary part of factor times image.
+        seen = factor * np.exp(-1j * turn)
         rows.append(np.full(2 * len(halfedge), number))
         columns.append(np.stack([2 * halfedge, 2 * halfedge + 1], axis=1).reshape(-1))
-        values.append(np.stack([factor.imag, factor.real], axis=1).reshape(-1))
-    shape = (len(passed), 6 * traces.chart.triangulation.n_faces)
+        values.append(np.stack([seen.imag, seen.real], axis=1).reshape(-1))
+    shape = (len(ways), 6 * traces.chart.triangulation.n_faces)
     if not rows:
         return csc_array(shape)
     indices = (np.concatenate(rows), np.concatenate(columns))

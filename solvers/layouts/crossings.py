@@ -40,6 +40,11 @@ class Crossings:
     def __getitem__(self, chosen: IntArray | BoolArray) -> Crossings:
         return Crossings(self.chord[chosen], self.trace[chosen], self.at[chosen])
 
+    @property
+    def exchanged(self) -> Crossings:
+        """The same with the two of each pair exchanged."""
+        return Crossings(self.chord[:, ::-1], self.trace[:, ::-1], self.at[:, ::-1])
+
 
 def crossings(chart: Chart, chords: Chords) -> Crossings:
     """Return all crossings at right angles of chords in the order `trace` returns them."""

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from solvers.layouts.arrangement import Arrangement, arrange
-from solvers.layouts.connections import conditions, passing
+from solvers.layouts.connections import beside, conditions, ending, passing
 from solvers.layouts.crossings import crossings
 from solvers.layouts.curves import bare_loops, boundary_halfedges
 from solvers.layouts.joined_map import JoinedMap
@@ -79,6 +79,10 @@ class Drawing:
         crossed = self.crossings if same else crossings(rimmed.chart, rimmed.chords)
         found = passing(rimmed, crossed, len(self._nodes))
         return conditions(rimmed, found, self._map.turned)
+
+    def loose_ends(self) -> csc_array:
+        """Return how far nodes where traces end are off them, where it is more than rounding."""
+        return ending(self.traces, beside(self.traces), self._map.turned)
 
     def again(self, longest: float | None = None) -> Drawing:
         """Return the same in the map as it is now, perhaps with longer traces."""

@@ -135,6 +135,10 @@ def quad_layout(integrated: IntegratedField) -> Generator[Progress, None, QuadLa
         drawing = drawing.again()
     yield Progress("cutting into rectangles", 0.8)
     drawing = drawing.again(LONGEST)
+    for _ in range(JOININGS):
+        if not map_.join(drawing.loose_ends()):
+            break
+        drawing = drawing.again()
     while (seed := drawing.missing()) is not None:
         drawing = drawing.seeded(*seed)
     return QuadLayout(

@@ -45,7 +45,7 @@ def stops(traces: Traces, crossings: Crossings, longest: float = np.inf) -> Stop
     longest : float, optional
         Traces that are longer, in the map, stop at others even if they come to the boundary.
     """
-    kept = ~_doubled(traces)
+    kept = ~doubled(traces)
     long = (traces.ends == BORDER) & (traces.lengths > longest)
     endless = ((traces.ends == LENGTH) | long) & kept
     at = np.where(endless, np.inf, traces.lengths)
@@ -71,13 +71,13 @@ def left_of(crossings: Crossings, stopped: Stops) -> Crossings:
     return crossings[np.flatnonzero(left & reached)]
 
 
-def _doubled(traces: Traces) -> BoolArray:
+def doubled(traces: Traces) -> BoolArray:
     """Return which traces run along another between two nodes, the other way."""
     starts = traces.starts
     number = {key: i for i, key in enumerate(zip(starts.node, starts.slot, strict=True))}
-    doubled = np.zeros(len(traces.ends), dtype=bool)
+    runs_along = np.zeros(len(traces.ends), dtype=bool)
     for i in np.flatnonzero(traces.ends == NODE):
         other = number.get((traces.end_node[i], traces.end_slot[i]), -1)
-        if not doubled[i] and other >= 0 and other != i:
-            doubled[other] = True
-    return doubled
+        if not runs_along[i] and other >= 0 and other != i:
+            runs_along[other] = True
+    return runs_along

@@ -7,12 +7,14 @@ from solvers.errors import CrossviewError
 from solvers.fields.aligned import IntegratedField, aligned_field
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.layouts.arrangement import arrange
+from solvers.layouts.connections import beside, ending
 from solvers.layouts.crossings import crossings
 from solvers.layouts.errors import LayoutError
+from solvers.layouts.joined_map import JoinedMap
 from solvers.layouts.layout import QuadLayout, quad_layout
 from solvers.layouts.nodes import singular_nodes, starts_at
 from solvers.layouts.stops import stops
-from solvers.layouts.tracing import NODE, trace
+from solvers.layouts.tracing import NODE, Traces, trace
 from solvers.layouts.turning import joining_turn
 from solvers.maps.seamless import seamless_map
 from solvers.primitives import BUILTIN
@@ -55,7 +57,7 @@ def test_as_many_separatrices_leave_as_valences_and_corners_say(name: str) -> No
 def test_opposite_sides_are_equally_long(name: str) -> None:
     tmesh = layout_of(name).tmesh
     sides = tmesh.side_totals(tmesh.lengths)
-    np.testing.assert_allclose(sides[:, :2], sides[:, 2:], atol=1e-8 * sides.max())
+    np.testing.assert_allclose(sides[:, :2], sides[:, 2:], rtol=0, atol=1e-11 * sides.max())
 
 
 @pytest.mark.parametrize("name", FIELDS)
@@ -130,6 +132,20 @@ def test_nearly_collinear_singularities_are_joined() -> None:
     places = [[0.5, 0.003, 0], [0, 0.5, 0], [-0.5, 0, 0], [0.002, -0.5, 0]]
     layout = run(quad_layout(integrated(surface, at_places(surface, places, [3] * 4))))
     assert (layout.patches, layout.conforming) == (5, True)
+
+
+def test_a_trace_that_ends_beside_a_node_is_led_onto_it() -> None:
+    map_ = JoinedMap(FIELDS["disk with four"]())
+    nodes = singular_nodes(map_.chart, map_.integrated.field)
+
+    def traced() -> Traces:
+        chart = map_.chart
+        return trace(chart, nodes, starts_at(chart, nodes), 0.02, 4 * chart.diameter)
+
+    loose = beside(traced())
+    assert len(loose) == 4  # the sides of the square, each from one of its ends
+    assert map_.join(ending(traced(), loose, map_.turned))
+    assert len(beside(traced())) == 0
 
 
 def test_a_field_that_is_not_integrable_has_no_layout() -> None:
