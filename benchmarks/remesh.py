@@ -14,12 +14,15 @@ import time
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 FACES = {3: "triangles", 4: "quads"}
 Raw = tuple[np.ndarray, list[list[int]]]
 
 
-def instant_meshes(vertices, faces, wanted) -> tuple[Raw, float]:
+def instant_meshes(
+    vertices: NDArray[np.float64], faces: NDArray[np.int64], wanted: int
+) -> tuple[Raw, float]:
     """Instant Meshes, pure quads; only its file output keeps them."""
     import pyinstantmeshes
 
@@ -44,7 +47,9 @@ def instant_meshes(vertices, faces, wanted) -> tuple[Raw, float]:
     return (points, polygons), seconds
 
 
-def quadriflow(vertices, faces, wanted) -> tuple[Raw, float]:
+def quadriflow(
+    vertices: NDArray[np.float64], faces: NDArray[np.int64], wanted: int
+) -> tuple[Raw, float]:
     """QuadriFlow as Blender has it, boundaries kept."""
     from pyQuadriFlow.pyQuadriFlow import pyquadriflow
 
@@ -54,7 +59,9 @@ def quadriflow(vertices, faces, wanted) -> tuple[Raw, float]:
     return (np.array(made["vertices"]), made["faces"]), time.perf_counter() - start
 
 
-def gmsh_quasi_structured(vertices, faces, wanted) -> tuple[Raw, float]:
+def gmsh_quasi_structured(
+    vertices: NDArray[np.float64], faces: NDArray[np.int64], wanted: int
+) -> tuple[Raw, float]:
     """Gmsh's quasi-structured quads on the reparametrised triangulation."""
     import gmsh
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 import os
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -106,7 +106,7 @@ def newton_from_zero(aligned: AlignedField) -> Iterate:
     return run(newton.solve(np.zeros(aligned.integrability.assembly.n)))
 
 
-def timed(work) -> tuple[Iterate, float]:
+def timed(work: Callable[[], object]) -> tuple[Iterate, float]:
     start = time.perf_counter()
     end = work()
     return end, time.perf_counter() - start

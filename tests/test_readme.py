@@ -16,12 +16,14 @@ from solvers.progress import run
 README = (Path(__file__).resolve().parents[1] / "README.md").read_text(encoding="utf-8")
 
 
-def blocks(language):
+def blocks(language: str) -> list[str]:
     """The examples in a language, in their order."""
     return re.findall(rf"```{language}\n(.*?)```", README, re.DOTALL)
 
 
-def test_the_python_examples_print_what_their_comments_say(capsys, tmp_path, monkeypatch):
+def test_the_python_examples_print_what_their_comments_say(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.chdir(tmp_path)
     quads, field = blocks("python")
     exec(quads, {})
@@ -35,7 +37,7 @@ def test_the_python_examples_print_what_their_comments_say(capsys, tmp_path, mon
         assert f"# {line}" in README
 
 
-def test_the_case_example_solves():
+def test_the_case_example_solves() -> None:
     (text,) = blocks("json")
     (solution,) = run(solve_case(Case.from_json(json.loads(text))))
     assert solution.field.index_sum == solution.field.index_required
@@ -43,7 +45,7 @@ def test_the_case_example_solves():
 
 
 @pytest.mark.parametrize("name", BUILTIN)
-def test_built_in_surfaces_are_listed_with_their_parameters(name):
+def test_built_in_surfaces_are_listed_with_their_parameters(name: str) -> None:
     (row,) = re.findall(rf"^\| `{name}` \|.*\| (.*) \|$", README, re.MULTILINE)
     listed = dict(re.findall(r"`(\w+)` (\S+?)(?:,|$)", row.replace("(a pentagon)", "pentagon")))
     parameters = inspect.signature(BUILTIN[name]).parameters
@@ -54,6 +56,6 @@ def test_built_in_surfaces_are_listed_with_their_parameters(name):
 
 
 @pytest.mark.parametrize("suffix", SUFFIXES)
-def test_file_formats_are_named(suffix):
+def test_file_formats_are_named(suffix: str) -> None:
     known = {".gltf": "glTF", ".obj": "OBJ", ".msh": "MSH"}.get(suffix, suffix[1:].upper())
     assert known in README

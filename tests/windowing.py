@@ -9,12 +9,12 @@ import os
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QEvent, QPointF, QSettings, Qt, QTimer
+from PySide6.QtCore import QEvent, QPoint, QPointF, QSettings, Qt, QTimer
 from PySide6.QtGui import QMouseEvent, QWheelEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
@@ -22,6 +22,7 @@ from vtkmodules.vtkRenderingCore import vtkRenderWindow
 
 from crossview.gui.app import application
 from crossview.gui.main_window import MainWindow
+from crossview.gui.state import WindowState
 from crossview.scene import ensure_rendering
 from crossview.view.colors import rgb
 
@@ -38,7 +39,7 @@ class Hand:
         self.canvas = window.viewport.plotter
 
     @property
-    def state(self):
+    def state(self) -> WindowState:
         return self.window.state
 
     def wait(self, wanted: Callable[[], bool] = lambda: True) -> None:
@@ -57,7 +58,9 @@ class Hand:
         self.window.files.open(str(target))
         self.wait()
 
-    def key(self, key: Qt.Key, modifiers=Qt.KeyboardModifier.NoModifier) -> None:
+    def key(
+        self, key: Qt.Key, modifiers: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier
+    ) -> None:
         QTest.keyClick(self.canvas, key, modifiers)
         QApplication.processEvents()
 
@@ -65,7 +68,7 @@ class Hand:
         self.window.actions_table.by_name[name].trigger()
         self.wait()
 
-    def place(self, xyz) -> QPointF:
+    def place(self, xyz: Iterable[float]) -> QPointF:
         """Where a point of space is in the viewport."""
         renderer = self.canvas.renderer
         renderer.SetWorldPoint(*map(float, xyz), 1.0)
@@ -79,21 +82,43 @@ class Hand:
         surface = self.state.document.surface
         return self.place(surface.position(self.state.singularities[index].point))
 
-    def press(self, place: QPointF, button=Qt.MouseButton.LeftButton, keys=NO_KEYS) -> None:
+    def press(
+        self,
+        place: QPointF,
+        button: Qt.MouseButton = Qt.MouseButton.LeftButton,
+        keys: Qt.KeyboardModifier = NO_KEYS,
+    ) -> None:
         self._send(QEvent.Type.MouseButtonPress, place, button, button, keys)
 
-    def move(self, place: QPointF, held=Qt.MouseButton.NoButton, keys=NO_KEYS) -> None:
+    def move(
+        self,
+        place: QPointF,
+        held: Qt.MouseButton = Qt.MouseButton.NoButton,
+        keys: Qt.KeyboardModifier = NO_KEYS,
+    ) -> None:
         self._send(QEvent.Type.MouseMove, place, Qt.MouseButton.NoButton, held, keys)
 
-    def release(self, place: QPointF, button=Qt.MouseButton.LeftButton, keys=NO_KEYS) -> None:
+    def release(
+        self,
+        place: QPointF,
+        button: Qt.MouseButton = Qt.MouseButton.LeftButton,
+        keys: Qt.KeyboardModifier = NO_KEYS,
+    ) -> None:
         self._send(QEvent.Type.MouseButtonRelease, place, button, Qt.MouseButton.NoButton, keys)
 
-    def click(self, place: QPointF, button=Qt.MouseButton.LeftButton, keys=NO_KEYS) -> None:
+    def click(
+        self,
+        place: QPointF,
+        button: Qt.MouseButton = Qt.MouseButton.LeftButton,
+        keys: Qt.KeyboardModifier = NO_KEYS,
+    ) -> None:
         self.move(place)
         self.press(place, button, keys)
         self.release(place, button, keys)
 
-    def drag(self, start: QPointF, end: QPointF, steps: int = 8, keys=NO_KEYS) -> None:
+    def drag(
+        self, start: QPointF, end: QPointF, steps: int = 8, keys: Qt.KeyboardModifier = NO_KEYS
+    ) -> None:
         """Press, move in steps and stay held; `release` lets go."""
         self.press(start, keys=keys)
         for step in range(1, steps + 1):
@@ -141,15 +166,20 @@ class Hand:
         ratio = self.canvas.devicePixelRatioF()
         return round(place.x() * ratio), round(place.y() * ratio)
 
-    def _send(self, kind, place: QPointF, button, held, keys=NO_KEYS) -> None:
+    def _send(
+        self,
+        kind: QEvent.Type,
+        place: QPointF,
+        button: Qt.MouseButton,
+        held: Qt.MouseButton,
+        keys: Qt.KeyboardModifier = NO_KEYS,
+    ) -> None:
         spot = QPointF(self.canvas.mapToGlobal(place.toPoint()))
         QApplication.sendEvent(self.canvas, QMouseEvent(kind, place, spot, button, held, keys))
         QApplication.processEvents()
 
 
-def _vertical(angle: int):
-    from PySide6.QtCore import QPoint
-
+def _vertical(angle: int) -> QPoint:
     return QPoint(0, angle)
 
 

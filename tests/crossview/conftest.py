@@ -3,31 +3,16 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from crossview.cli import main
-
-
-@dataclass(frozen=True)
-class Ran:
-    """What a command gave back."""
-
-    status: int
-    out: str
-    err: str
-
-    @property
-    def json(self) -> Any:
-        return json.loads(self.out)
+from tests.command_line import CaseFile, Crossview, Ran
 
 
 @pytest.fixture
-def crossview(capsys) -> Callable[..., Ran]:
+def crossview(capsys: pytest.CaptureFixture[str]) -> Crossview:
     """Run a command line in this process."""
 
     def run(*arguments: object) -> Ran:
@@ -40,7 +25,7 @@ def crossview(capsys) -> Callable[..., Ran]:
 
 
 @pytest.fixture
-def case_file(tmp_path) -> Callable[..., Path]:
+def case_file(tmp_path: Path) -> CaseFile:
     """Write a case file."""
 
     def write(surface: object, singularities: object = (), **more: object) -> Path:

@@ -1,15 +1,17 @@
 """Features marked in the window."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
+from numpy.typing import NDArray
+from PySide6.QtCore import QPointF, Qt
 from PySide6.QtWidgets import QApplication
 
 from crossview.cases.model import Case
 from crossview.view.colors import FEATURE, PROBLEM
-from tests.windowing import count_color
+from tests.windowing import Hand, count_color
 
 SPHERE = {
     "surface": {"builtin": "cube_sphere", "n": 12},
@@ -26,7 +28,7 @@ SHIFT = Qt.KeyboardModifier.ShiftModifier
 
 
 @pytest.fixture
-def sphere(hand, tmp_path):
+def sphere(hand: Hand, tmp_path: Path) -> Hand:
     """The window with a sphere and the cube's eight, separatrices off."""
     path = tmp_path / "sphere.json"
     path.write_text(json.dumps(SPHERE))
@@ -35,12 +37,12 @@ def sphere(hand, tmp_path):
     return hand
 
 
-def edge_middle(hand, edge):
+def edge_middle(hand: Hand, edge: int) -> QPointF:
     surface = hand.state.document.surface
     return hand.place(surface.vertices[surface.edges[edge]].mean(axis=0))
 
 
-def facing(hand, places, least=0.5):
+def facing(hand: Hand, places: NDArray[np.int64], least: float = 0.5) -> NDArray[np.int64]:
     """Which of the edges (numbers) of a sphere about the origin face the eye, away from discs."""
     surface = hand.state.document.surface
     eye = np.array(hand.canvas.renderer.GetActiveCamera().GetPosition())
@@ -50,7 +52,9 @@ def facing(hand, places, least=0.5):
     return places[(middle @ (eye / np.linalg.norm(eye)) > least) & away]
 
 
-def test_sharp_edges_are_shown_as_the_angle_changes_and_taken_when_it_rests(sphere, tmp_path):
+def test_sharp_edges_are_shown_as_the_angle_changes_and_taken_when_it_rests(
+    sphere: Hand, tmp_path: Path
+) -> None:
     hand = sphere
     box = hand.window.surface_panel.features
     box.sharp.setChecked(True)
@@ -72,7 +76,7 @@ def test_sharp_edges_are_shown_as_the_angle_changes_and_taken_when_it_rests(sphe
     assert count_color(hand.picture(), FEATURE) == 0
 
 
-def test_a_click_marks_an_edge_and_a_second_one_takes_the_mark_away(sphere):
+def test_a_click_marks_an_edge_and_a_second_one_takes_the_mark_away(sphere: Hand) -> None:
     hand = sphere
     hand.trigger("mark-edges")
     surface = hand.state.document.surface
@@ -93,7 +97,9 @@ def test_a_click_marks_an_edge_and_a_second_one_takes_the_mark_away(sphere):
     assert len(hand.state.features) == 0
 
 
-def test_shift_marks_the_path_from_the_last_click_and_a_case_keeps_it(sphere, tmp_path):
+def test_shift_marks_the_path_from_the_last_click_and_a_case_keeps_it(
+    sphere: Hand, tmp_path: Path
+) -> None:
     hand = sphere
     hand.trigger("mark-edges")
     surface = hand.state.document.surface
@@ -115,7 +121,7 @@ def test_shift_marks_the_path_from_the_last_click_and_a_case_keeps_it(sphere, tm
     assert hand.state.document.problem.features.edges.tolist() == marked
 
 
-def test_the_anisotropic_field_follows_what_the_isotropic_one_misses(sphere):
+def test_the_anisotropic_field_follows_what_the_isotropic_one_misses(sphere: Hand) -> None:
     hand = sphere
     hand.trigger("mark-edges")
     surface = hand.state.document.surface
@@ -135,7 +141,9 @@ def test_the_anisotropic_field_follows_what_the_isotropic_one_misses(sphere):
     assert count_color(hand.picture(), FEATURE) > 0
 
 
-def test_natural_singularities_are_drawn_on_their_way_and_stopping_breaks_nothing(sphere):
+def test_natural_singularities_are_drawn_on_their_way_and_stopping_breaks_nothing(
+    sphere: Hand,
+) -> None:
     hand = sphere
     before, solution = hand.state.document, hand.state.solution
     seen = []
@@ -156,7 +164,7 @@ def test_natural_singularities_are_drawn_on_their_way_and_stopping_breaks_nothin
         assert hand.state.base is not None
 
 
-def test_natural_singularities_follow_sharp_edges_and_curvature(hand):
+def test_natural_singularities_follow_sharp_edges_and_curvature(hand: Hand) -> None:
     hand.open("ellipsoid")
     hand.trigger("along-curvature")
     assert hand.state.along_curvature
@@ -169,7 +177,7 @@ def test_natural_singularities_follow_sharp_edges_and_curvature(hand):
     assert np.abs(places[:, 1]).max() < 0.3
 
 
-def test_a_stopped_natural_field_leaves_nothing_where_there_was_none(hand):
+def test_a_stopped_natural_field_leaves_nothing_where_there_was_none(hand: Hand) -> None:
     hand.open("sphere")
     assert hand.state.field is None
     hand.window.actions_table.by_name["natural-mbo"].trigger()

@@ -1,6 +1,7 @@
 """Pairs, merging, splitting, mirroring, completing, and the offers of Make valid."""
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +19,9 @@ def polar(radius: float, degrees: float) -> list[float]:
     return [radius * np.cos(np.radians(degrees)), radius * np.sin(np.radians(degrees)), 0.0]
 
 
-def saved(tmp_path, surface, *placed, locked: bool = False) -> str:
+def saved(
+    tmp_path: Path, surface: object, *placed: tuple[Sequence[float], int], locked: bool = False
+) -> str:
     singularities = [
         {"position": list(map(float, p)), "valence": v, "locked": locked} for p, v in placed
     ]
@@ -97,7 +100,7 @@ def test_a_pair_without_a_place_goes_where_there_is_room(hand: Hand) -> None:
     assert room > 0.3
 
 
-def test_mirror_and_rotate(hand: Hand, tmp_path) -> None:
+def test_mirror_and_rotate(hand: Hand, tmp_path: Path) -> None:
     hand.open(saved(tmp_path, {"builtin": "square"}, ([0.1, 0.3, 0], 3), ([-0.2, 0.1, 0], 5)))
     x = places(hand)
     hand.trigger("mirror-x")
@@ -141,7 +144,7 @@ def test_the_impossible_torus_is_offered_a_pair_that_works(hand: Hand) -> None:
 
 
 def test_locked_singularities_are_offered_a_pair_or_the_anisotropic_field(
-    hand: Hand, tmp_path
+    hand: Hand, tmp_path: Path
 ) -> None:
     placed = ((polar(0.6, 20), 3), (polar(0.8, 80), 5))
     hand.open(saved(tmp_path, {"builtin": "annulus", "inner": 0.4}, *placed, locked=True))
@@ -165,7 +168,9 @@ def test_locked_singularities_are_offered_a_pair_or_the_anisotropic_field(
 
 
 @pytest.mark.parametrize("place", [(0.0, 0.0), (0.3, -0.2)])
-def test_the_scene_menu_adds_a_pair_where_it_was_asked_for(hand: Hand, place) -> None:
+def test_the_scene_menu_adds_a_pair_where_it_was_asked_for(
+    hand: Hand, place: tuple[float, float]
+) -> None:
     hand.open("disk-4")
     there = hand.place((*place, 0.0))
     hand.click(there, Qt.MouseButton.RightButton)

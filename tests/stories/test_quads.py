@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import pyvista as pv
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QPushButton
 
 from crossview.cases.gallery import path_of
 from crossview.cases.model import Case
@@ -27,7 +27,7 @@ def isotropic_plate(tmp_path: Path) -> str:
     return str(path)
 
 
-def offer(hand: Hand, label: str):
+def offer(hand: Hand, label: str) -> QPushButton:
     """The button of the message bar with this label."""
     buttons = hand.window.centre.message_bar.action_buttons
     return next(button for button in buttons if button.text() == label)

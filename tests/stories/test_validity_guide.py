@@ -1,13 +1,15 @@
 """Following the guide: where a singularity may go, and the drag that keeps to it."""
 
 import json
+from collections.abc import Sequence
+from pathlib import Path
 
 import numpy as np
 import pytest
 from PySide6.QtCore import QEvent, QPointF, Qt
 from PySide6.QtGui import QEnterEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QWidget
 
 from crossview.view.colors import condition_color
 from tests.windowing import Hand, count_color
@@ -19,7 +21,7 @@ def polar(radius: float, degrees: float) -> list[float]:
     return [radius * np.cos(np.radians(degrees)), radius * np.sin(np.radians(degrees)), 0.0]
 
 
-def saved(tmp_path, builtin: dict, *placed) -> str:
+def saved(tmp_path: Path, builtin: dict, *placed: tuple[Sequence[float], int]) -> str:
     singularities = [{"position": list(map(float, p)), "valence": v} for p, v in placed]
     path = tmp_path / "case.json"
     path.write_text(json.dumps({"surface": builtin, "singularities": singularities}))
@@ -27,7 +29,7 @@ def saved(tmp_path, builtin: dict, *placed) -> str:
 
 
 @pytest.fixture
-def annulus(tmp_path) -> str:
+def annulus(tmp_path: Path) -> str:
     """By closed form off by (20 - 80) / 4 degrees; closed where both lie on one ray."""
     return saved(
         tmp_path, {"builtin": "annulus", "inner": 0.4}, (polar(0.6, 20), 3), (polar(0.8, 80), 5)
@@ -47,14 +49,14 @@ def rays(hand: Hand) -> list[tuple[bool, float]]:
     return found
 
 
-def enter(row, inside: bool) -> None:
+def enter(row: QWidget, inside: bool) -> None:
     here = QPointF(5, 5)
     kind = QEnterEvent(here, here, here) if inside else QEvent(QEvent.Type.Leave)
     QApplication.sendEvent(row, kind)
     QApplication.processEvents()
 
 
-def test_the_guide_shows_the_ray_to_go_to_and_shift_keeps_to_it(hand: Hand, annulus) -> None:
+def test_the_guide_shows_the_ray_to_go_to_and_shift_keeps_to_it(hand: Hand, annulus: str) -> None:
     hand.open(annulus)
     assert hand.state.defects == pytest.approx([np.radians(-15)], abs=1e-3)
     assert hand.state.guide == ()
@@ -92,7 +94,7 @@ def test_the_guide_shows_the_ray_to_go_to_and_shift_keeps_to_it(hand: Hand, annu
     assert drawn(hand, 0) == 0
 
 
-def test_dragging_freely_leaves_the_lines_where_they_are(hand: Hand, annulus) -> None:
+def test_dragging_freely_leaves_the_lines_where_they_are(hand: Hand, annulus: str) -> None:
     hand.open(annulus)
     hand.drag(hand.place_of(0), hand.place(polar(0.6, -30)))
     hand.wait()
@@ -103,7 +105,7 @@ def test_dragging_freely_leaves_the_lines_where_they_are(hand: Hand, annulus) ->
     hand.wait()
 
 
-def test_the_add_tool_shows_where_the_last_one_closes(hand: Hand, tmp_path) -> None:
+def test_the_add_tool_shows_where_the_last_one_closes(hand: Hand, tmp_path: Path) -> None:
     hand.open(saved(tmp_path, {"builtin": "annulus", "inner": 0.4}, (polar(0.8, 80), 5)))
     hand.key(Qt.Key.Key_3)
     hand.move(hand.place(polar(0.7, -20)))
@@ -118,7 +120,7 @@ def test_the_add_tool_shows_where_the_last_one_closes(hand: Hand, tmp_path) -> N
 
 
 def test_a_row_pointed_at_shows_its_condition_alone_and_a_click_pins_it(
-    hand: Hand, tmp_path
+    hand: Hand, tmp_path: Path
 ) -> None:
     placed = (([1.4, 0, 0], 3), ([0, 1.4, 0], 3), ([-1.4, 0, 0], 5), ([0.2, -1, 0.4], 5))
     hand.open(saved(tmp_path, {"builtin": "torus", "n": 48}, *placed))
@@ -155,7 +157,7 @@ def test_a_row_pointed_at_shows_its_condition_alone_and_a_click_pins_it(
     assert hand.state.guide == ()
 
 
-def test_the_guide_can_be_hidden(hand: Hand, annulus) -> None:
+def test_the_guide_can_be_hidden(hand: Hand, annulus: str) -> None:
     hand.open(annulus)
     hand.trigger("layer-guide")
     hand.move(hand.place_of(0))

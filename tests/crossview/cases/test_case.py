@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -31,7 +33,7 @@ FULL = {
 }
 
 
-def test_reads_every_key():
+def test_reads_every_key() -> None:
     case = Case.from_json(FULL)
     assert case == Case(
         Builtin("annulus", {"inner": 0.4}),
@@ -47,14 +49,14 @@ def test_reads_every_key():
 
 
 @pytest.mark.parametrize("data", [FULL, {"surface": "torus"}, {"surface": "torus", "corners": []}])
-def test_saved_and_loaded_is_the_same(tmp_path, data):
+def test_saved_and_loaded_is_the_same(tmp_path: Path, data: dict[str, Any]) -> None:
     case = Case.from_json(data)
     case.save(tmp_path / "case.json")
     assert Case.load(tmp_path / "case.json") == case
     assert [p.name for p in tmp_path.iterdir()] == ["case.json"]
 
 
-def test_a_surface_file_is_relative_to_its_case(tmp_path):
+def test_a_surface_file_is_relative_to_its_case(tmp_path: Path) -> None:
     (tmp_path / "cases").mkdir()
     path = tmp_path / "cases" / "a.json"
     path.write_text('{"surface": "../meshes/a.obj", "options": {"sizes": "a.npy"}}')
@@ -69,7 +71,7 @@ def test_a_surface_file_is_relative_to_its_case(tmp_path):
     assert Case.load(tmp_path / "b.json") == case
 
 
-def test_a_file_called_like_a_builtin_is_the_file(tmp_path):
+def test_a_file_called_like_a_builtin_is_the_file(tmp_path: Path) -> None:
     assert Case.from_json({"surface": "torus"}, tmp_path).surface == Builtin("torus")
     (tmp_path / "torus").write_text("")
     assert Case.from_json({"surface": "torus"}, tmp_path).surface == str(tmp_path / "torus")
@@ -118,7 +120,7 @@ def test_a_file_called_like_a_builtin_is_the_file(tmp_path):
         ({"options": []}, r"expected an object \{...\}, found \[\]"),
     ],
 )
-def test_what_is_wrong_is_named_with_its_place(change, said):
+def test_what_is_wrong_is_named_with_its_place(change: dict[str, Any], said: str) -> None:
     with pytest.raises(CaseError, match=said) as caught:
         Case.from_json({"surface": "torus", **change})
     assert "\n" not in str(caught.value)
@@ -135,7 +137,7 @@ def test_what_is_wrong_is_named_with_its_place(change, said):
         ("[1]", "expected an object"),
     ],
 )
-def test_a_broken_file_is_refused(tmp_path, text, said):
+def test_a_broken_file_is_refused(tmp_path: Path, text: str, said: str) -> None:
     path = tmp_path / "case.json"
     path.write_text(text)
     with pytest.raises(CaseError, match=said) as caught:
@@ -143,12 +145,12 @@ def test_a_broken_file_is_refused(tmp_path, text, said):
     assert "case.json" in str(caught.value)
 
 
-def test_a_byte_order_mark_is_no_mistake(tmp_path):
+def test_a_byte_order_mark_is_no_mistake(tmp_path: Path) -> None:
     (tmp_path / "case.json").write_text('{"surface": "torus"}', encoding="utf-8-sig")
     assert Case.load(tmp_path / "case.json").surface == Builtin("torus")
 
 
-def test_a_missing_or_binary_file_is_refused(tmp_path):
+def test_a_missing_or_binary_file_is_refused(tmp_path: Path) -> None:
     with pytest.raises(CaseError, match=r"No such file.*none\.json"):
         Case.load(tmp_path / "none.json")
     with pytest.raises(CaseError, match="Is a directory"):
@@ -158,7 +160,7 @@ def test_a_missing_or_binary_file_is_refused(tmp_path):
         Case.load(tmp_path / "picture.json")
 
 
-def test_saving_where_nothing_can_be_written_says_so(tmp_path):
+def test_saving_where_nothing_can_be_written_says_so(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(CrossviewError, match=r"cannot write, Not a directory.*file"):
         Case(Builtin("torus")).save(tmp_path / "file" / "case.json")

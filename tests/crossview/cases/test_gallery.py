@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections import Counter
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,6 +19,7 @@ from crossview.workflow.quads import MeshOptions, layout, quads_of
 from solvers.layouts.errors import LayoutError
 from solvers.progress import run
 from solvers.quads.quadmesh import QuadMesh
+from tests.command_line import Crossview
 
 NOT_ISOTROPIC = {
     "annulus-far",
@@ -61,7 +63,7 @@ def has_quads(name: str) -> bool:
 
 
 @pytest.mark.parametrize("name", gallery.names())
-def test_a_case_solves_and_is_valid_unless_it_shows_that_it_is_not(name):
+def test_a_case_solves_and_is_valid_unless_it_shows_that_it_is_not(name: str) -> None:
     solution = solved(name)
     assert find_case(name).title
     assert solution.field.index_sum == solution.field.index_required
@@ -72,11 +74,11 @@ def test_a_case_solves_and_is_valid_unless_it_shows_that_it_is_not(name):
         assert {s.valence for s in solution.singularities} == VALENCES[name]
 
 
-def test_the_four_of_the_disk_align_the_field_with_the_circle():
+def test_the_four_of_the_disk_align_the_field_with_the_circle() -> None:
     assert np.abs(np.degrees(solved("disk-4").field.boundary_misalignment)).max() < 1e-6
 
 
-def test_the_annuli_are_near_and_far_from_valid():
+def test_the_annuli_are_near_and_far_from_valid() -> None:
     near, far = (
         np.abs(np.degrees(solved(f"annulus-{n}").holonomy_defects)) for n in ("near", "far")
     )
@@ -84,7 +86,7 @@ def test_the_annuli_are_near_and_far_from_valid():
 
 
 @pytest.mark.parametrize("name", sorted(INTEGRABLE))
-def test_anisotropic_cases_are_aligned_and_integrable(name):
+def test_anisotropic_cases_are_aligned_and_integrable(name: str) -> None:
     field = solved(name).field
     assert field.method == "anisotropic"
     assert field.energy <= 1e-10
@@ -92,7 +94,7 @@ def test_anisotropic_cases_are_aligned_and_integrable(name):
 
 
 @pytest.mark.parametrize("name", sorted(MERELY_ALIGNED))
-def test_theta_imposed_is_aligned_and_not_integrable(name):
+def test_theta_imposed_is_aligned_and_not_integrable(name: str) -> None:
     solution = solved(name)
     assert solution.field.method == "aligned"
     assert np.abs(solution.field.boundary_misalignment).max() < 1e-9
@@ -102,7 +104,7 @@ def test_theta_imposed_is_aligned_and_not_integrable(name):
         assert 0.1 < solution.field.energy < 0.6
 
 
-def test_pairs_of_cases_differ_in_method_only():
+def test_pairs_of_cases_differ_in_method_only() -> None:
     pairs = [("annulus-near", "annulus-near-aligned"), ("annulus-far", "annulus-far-aligned")]
     pairs += [("suboptimal-a", "suboptimal-b"), ("suboptimal-a", "suboptimal-c")]
     for one, other in pairs:
@@ -111,19 +113,19 @@ def test_pairs_of_cases_differ_in_method_only():
         assert (first.surface, first.options) == (second.surface, second.options)
 
 
-def test_the_square_is_its_constant_solution():
+def test_the_square_is_its_constant_solution() -> None:
     field = solved("square").field
     assert max(np.abs(field.H1).max(), np.abs(field.H2).max()) < 1e-8
     # along x or y: a cross is the same after a quarter turn
     assert np.abs(field.u[:, 0] * field.u[:, 1]).max() < 1e-8
 
 
-def test_the_torus_is_told_to_be_impossible():
+def test_the_torus_is_told_to_be_impossible() -> None:
     assert solved("torus-35").verdict.status == "impossible"
 
 
 @pytest.mark.parametrize("name", gallery.names())
-def test_a_case_has_quads_if_its_field_is_aligned_and_integrable(name):
+def test_a_case_has_quads_if_its_field_is_aligned_and_integrable(name: str) -> None:
     if not has_quads(name):
         with pytest.raises(LayoutError):
             run(layout(solved(name)))
@@ -145,26 +147,26 @@ def test_a_case_has_quads_if_its_field_is_aligned_and_integrable(name):
     ("name", "patches", "arcs"),
     [("sphere-cube", 6, 12), ("disk-4", 5, 8), ("teaser-a", 15, 15), ("square", 1, 0)],
 )
-def test_layouts_are_those_of_the_figures(name, patches, arcs):
+def test_layouts_are_those_of_the_figures(name: str, patches: int, arcs: int) -> None:
     made = report(*meshed(name))["layout"]
     assert (made["patches"], made["separatrices"]) == (patches, arcs)
     assert (made["conforming"], made["t_junctions"], made["flips"]) == (True, 0, 0)
 
 
-def test_the_teasers_have_three_different_conforming_layouts():
+def test_the_teasers_have_three_different_conforming_layouts() -> None:
     made = [report(*meshed(f"teaser-{letter}"))["layout"] for letter in "abc"]
     assert [m["conforming"] for m in made] == [True] * 3
     assert len({(m["patches"], m["separatrices"]) for m in made}) == 3
 
 
-def test_the_far_annulus_loses_its_t_junctions():
+def test_the_far_annulus_loses_its_t_junctions() -> None:
     start, end = (report(solved(f"annulus-far{of}"))["layout"] for of in ("-aligned", ""))
     assert end["t_junctions"] < start["t_junctions"]
     exact = report(*meshed("annulus-far"))["layout"]
     assert exact["t_junctions"] < start["t_junctions"]
 
 
-def test_the_suboptimal_plate_shows_what_each_method_mends():
+def test_the_suboptimal_plate_shows_what_each_method_mends() -> None:
     a, b, c = (report(solved(f"suboptimal-{letter}"))["layout"] for letter in "abc")
     assert (a["misaligned_boundaries"], b["misaligned_boundaries"]) == (2, 0)
     assert a["t_junctions"] > 0
@@ -174,7 +176,7 @@ def test_the_suboptimal_plate_shows_what_each_method_mends():
     assert report(*meshed("suboptimal-c"))["layout"]["conforming"]
 
 
-def test_the_commands_name_and_draw_the_cases(crossview, tmp_path):
+def test_the_commands_name_and_draw_the_cases(crossview: Crossview, tmp_path: Path) -> None:
     listed = crossview("gallery", "--list").out.splitlines()
     assert [line.split()[0] for line in listed] == list(gallery.names())
     assert len(listed) >= 10

@@ -8,18 +8,21 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Iterable, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 import pyvista as pv
 
 from solvers.primitives import sphere, square, torus
+from tests.command_line import CaseFile, Crossview, refused
 
 PROGRAM = Path(sys.executable).with_name("crossview")
 
 
-def run(*arguments, **environment):
+def run(*arguments: object, **environment: str) -> subprocess.CompletedProcess[str]:
     """The real entry point in a process of its own, by default without a display."""
     without = {"DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"}
     clean = {k: v for k, v in os.environ.items() if k not in without}
@@ -32,7 +35,9 @@ def run(*arguments, **environment):
     )
 
 
-def write_obj(path, vertices, faces):
+def write_obj(
+    path: Path, vertices: Iterable[Sequence[float]], faces: Iterable[Sequence[int]]
+) -> Path:
     rows = ["v {} {} {}".format(*v) for v in vertices]
     rows += ["f {} {} {}".format(*(np.array(f) + 1)) for f in faces]
     path.write_text("\n".join(rows) + "\n")
@@ -40,24 +45,12 @@ def write_obj(path, vertices, faces):
 
 
 @pytest.fixture
-def two_pieces(tmp_path):
+def two_pieces(tmp_path: Path) -> Path:
     """A torus and, far from it, a smaller sphere."""
     first, second = torus(n=24), sphere(2)
     vertices = np.concatenate([first.vertices, second.vertices + [10, 0, 0]])
     faces = np.concatenate([first.faces, second.faces + first.n_vertices])
     return write_obj(tmp_path / "two.obj", vertices, faces)
-
-
-def refused(ran, tmp_path, *said):
-    """One line that says all of `said`; status 2; the folder as it was."""
-    assert ran.err.startswith("crossview: error: ")
-    assert ran.err.count("\n") == 1
-    for words in said:
-        assert words in ran.err
-    assert ran.status == 2
-    assert ran.out == ""
-    assert not (tmp_path / "out").exists()
-    assert not list(tmp_path.glob(".crossview-*"))
 
 
 @pytest.mark.parametrize(
@@ -122,7 +115,9 @@ def refused(ran, tmp_path, *said):
         ),
     ],
 )
-def test_a_wrong_case_is_refused(crossview, tmp_path, case, said):
+def test_a_wrong_case_is_refused(
+    crossview: Crossview, tmp_path: Path, case: dict[str, Any], said: list[str]
+) -> None:
     (tmp_path / "case.json").write_text(json.dumps(case))
     refused(crossview("solve", tmp_path / "case.json", "-o", tmp_path / "out"), tmp_path, *said)
 
@@ -158,28 +153,36 @@ def test_a_wrong_case_is_refused(crossview, tmp_path, case, said):
         (["gallery"], ["no folder for the results", "-o"]),
     ],
 )
-def test_a_wrong_command_line_is_refused(crossview, tmp_path, monkeypatch, arguments, said):
+def test_a_wrong_command_line_is_refused(
+    crossview: Crossview,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    arguments: list[str],
+    said: list[str],
+) -> None:
     (tmp_path / "file").write_text("")
     (tmp_path / "picture.png").write_bytes(b"\x89PNG")
     monkeypatch.chdir(tmp_path)
     refused(crossview(*arguments), tmp_path, *said)
 
 
-def test_what_needs_no_graphics_does_not_wait_for_it():
+def test_what_needs_no_graphics_does_not_wait_for_it() -> None:
     asked = "import sys, crossview.cli; print([m for m in sys.modules if m in sys.argv[1:]])"
     heavy = ["pyvista", "meshio", "vtkmodules", "PySide6", "matplotlib"]
     ran = subprocess.run([sys.executable, "-c", asked, *heavy], capture_output=True, text=True)
     assert ran.stdout == "[]\n"
 
 
-def test_what_stands_in_the_way_is_told_and_nothing_written(crossview, tmp_path):
+def test_what_stands_in_the_way_is_told_and_nothing_written(
+    crossview: Crossview, tmp_path: Path
+) -> None:
     (tmp_path / "there" / "surface.vtp").mkdir(parents=True)
     ran = crossview("solve", "square", "-o", tmp_path / "there")
     refused(ran, tmp_path, "cannot write, surface.vtp is a folder")
     assert [p.name for p in (tmp_path / "there").iterdir()] == ["surface.vtp"]
 
 
-def test_a_terminal_of_few_letters_and_a_full_disk(tmp_path):
+def test_a_terminal_of_few_letters_and_a_full_disk(tmp_path: Path) -> None:
     path = write_obj(tmp_path / "Würfel.obj", [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
     ran = run("info", path, PYTHONIOENCODING="ascii")
     assert (ran.returncode, ran.stderr) == (0, "")
@@ -194,14 +197,14 @@ def test_a_terminal_of_few_letters_and_a_full_disk(tmp_path):
     )
 
 
-def test_a_failed_solve_leaves_earlier_results_alone(crossview, tmp_path):
+def test_a_failed_solve_leaves_earlier_results_alone(crossview: Crossview, tmp_path: Path) -> None:
     assert crossview("solve", "square", "-o", tmp_path / "out").status == 0
     before = {p: p.stat().st_mtime_ns for p in (tmp_path / "out").iterdir()}
     assert crossview("solve", "sphere", "-o", tmp_path / "out").status == 2
     assert {p: p.stat().st_mtime_ns for p in (tmp_path / "out").iterdir()} == before
 
 
-def test_info_describes_a_surface(crossview):
+def test_info_describes_a_surface(crossview: Crossview) -> None:
     found = crossview("info", "annulus", "--json").json
     (piece,) = found["components"]
     assert found["problems"] == []
@@ -214,7 +217,7 @@ def test_info_describes_a_surface(crossview):
     assert "index 0 of 0" in text
 
 
-def test_info_of_a_case_counts_its_singularities(crossview, case_file):
+def test_info_of_a_case_counts_its_singularities(crossview: Crossview, case_file: CaseFile) -> None:
     path = case_file("sphere", [((0, 0, 1), 1), ((0, 0, -1), 2)])
     (piece,) = crossview("info", path, "--json").json["components"]
     budget = piece["index_budget"]
@@ -222,7 +225,7 @@ def test_info_of_a_case_counts_its_singularities(crossview, case_file):
     assert "add 3 valence 3" in budget["remedies"]
 
 
-def test_info_reports_what_is_wrong_with_a_surface(crossview, tmp_path):
+def test_info_reports_what_is_wrong_with_a_surface(crossview: Crossview, tmp_path: Path) -> None:
     """Three triangles at one edge, one of them twice: nothing to solve on, but all is named."""
     vertices = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1)]
     faces = [(0, 1, 2), (1, 0, 3), (0, 1, 4), (0, 1, 2)]
@@ -240,7 +243,7 @@ def test_info_reports_what_is_wrong_with_a_surface(crossview, tmp_path):
     assert crossview("info", path, "--repair", "--json").json["components"] != []
 
 
-def test_info_lists_all_components(crossview, two_pieces):
+def test_info_lists_all_components(crossview: Crossview, two_pieces: Path) -> None:
     found = crossview("info", two_pieces, "--json").json
     assert [piece["genus"] for piece in found["components"]] == [1, 0]
     assert [piece["index_budget"]["required"] for piece in found["components"]] == [0, 8]
@@ -249,7 +252,9 @@ def test_info_lists_all_components(crossview, two_pieces):
     assert piece["genus"] == 0
 
 
-def test_a_surface_in_several_components(crossview, two_pieces, tmp_path, case_file):
+def test_a_surface_in_several_components(
+    crossview: Crossview, two_pieces: Path, tmp_path: Path, case_file: CaseFile
+) -> None:
     out = tmp_path / "out"
     ran = crossview("solve", two_pieces, "-o", out)
     refused(ran, tmp_path, "2 separate components", "largest", "(option component)")
@@ -268,7 +273,9 @@ def test_a_surface_in_several_components(crossview, two_pieces, tmp_path, case_f
         assert json.loads(written) == ran.json[number]
 
 
-def test_one_component_of_a_case_of_all_is_drawn(crossview, two_pieces, tmp_path, case_file):
+def test_one_component_of_a_case_of_all_is_drawn(
+    crossview: Crossview, two_pieces: Path, tmp_path: Path, case_file: CaseFile
+) -> None:
     cube = [((10 + x, y, z), 3) for x in (-0.6, 0.6) for y in (-0.6, 0.6) for z in (-0.6, 0.6)]
     case = case_file(str(two_pieces), cube, options={"component": "all"})
     ran = crossview("render", case, "-o", tmp_path / "out" / "a.png", "--component", "2")
@@ -278,7 +285,7 @@ def test_one_component_of_a_case_of_all_is_drawn(crossview, two_pieces, tmp_path
     assert (tmp_path / "a.png").stat().st_size > 0
 
 
-def test_stl_is_merged_with_a_note(crossview, tmp_path):
+def test_stl_is_merged_with_a_note(crossview: Crossview, tmp_path: Path) -> None:
     made = square(8)
     path = tmp_path / "square.stl"
     pv.PolyData.from_regular_faces(made.vertices, made.faces).save(path)
@@ -288,7 +295,7 @@ def test_stl_is_merged_with_a_note(crossview, tmp_path):
     assert any("merged" in note for note in report["notes"])
 
 
-def test_render_draws_the_chosen_layers(crossview, tmp_path):
+def test_render_draws_the_chosen_layers(crossview: Crossview, tmp_path: Path) -> None:
     picture = tmp_path / "new" / "square.png"
     ran = crossview(
         "render", "square", "-o", picture, "--size", "200x150", "--scale", "2",
@@ -304,7 +311,7 @@ def test_render_draws_the_chosen_layers(crossview, tmp_path):
     assert (colours[:, 3] == 255).any()
 
 
-def test_the_real_program(tmp_path):
+def test_the_real_program(tmp_path: Path) -> None:
     assert run("--version").stdout.strip().count(".") == 2
     shown = run("--help")
     assert shown.returncode == 0
@@ -322,7 +329,7 @@ def test_the_real_program(tmp_path):
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="other systems have a screen")
 @pytest.mark.parametrize("environment", [{}, {"DISPLAY": ":987"}])
-def test_the_window_without_a_display_says_what_to_do(environment):
+def test_the_window_without_a_display_says_what_to_do(environment: dict[str, str]) -> None:
     ran = run("torus", **environment)
     assert ran.returncode == 2
     assert "no display" in ran.stderr
@@ -330,7 +337,7 @@ def test_the_window_without_a_display_says_what_to_do(environment):
     assert ran.stderr.count("\n") == 1
 
 
-def test_long_work_shows_its_progress(case_file, tmp_path):
+def test_long_work_shows_its_progress(case_file: CaseFile, tmp_path: Path) -> None:
     """A terminal sees a bar for work of more than a second, apart from the results."""
     path = case_file({"builtin": "square", "n": 400})
     ran = run("solve", path, "-o", tmp_path / "out", FORCE_COLOR="1", TERM="xterm")
@@ -342,7 +349,7 @@ def test_long_work_shows_its_progress(case_file, tmp_path):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no such signal")
-def test_ctrl_c_ends_in_one_line_and_leaves_nothing(case_file, tmp_path):
+def test_ctrl_c_ends_in_one_line_and_leaves_nothing(case_file: CaseFile, tmp_path: Path) -> None:
     path = case_file({"builtin": "square", "n": 900})
     command = [PROGRAM, "solve", path, "-o", tmp_path / "out"]
     with subprocess.Popen(command, stdout=-1, stderr=-1, text=True) as program:

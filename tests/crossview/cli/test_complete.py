@@ -1,12 +1,16 @@
 """crossview complete: the indices that are missing, placed."""
 
 import json
+from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from tests.command_line import CaseFile, Crossview
 
-def test_a_bare_surface_is_completed_and_solved(crossview, tmp_path):
+
+def test_a_bare_surface_is_completed_and_solved(crossview: Crossview, tmp_path: Path) -> None:
     new = tmp_path / "sphere.json"
     ran = crossview("complete", "sphere", "-o", new)
     assert (ran.status, ran.err) == (0, "")
@@ -16,7 +20,9 @@ def test_a_bare_surface_is_completed_and_solved(crossview, tmp_path):
     assert report["isotropically_valid"]
 
 
-def test_what_is_there_stays_and_an_annulus_is_made_valid_after(crossview, case_file, tmp_path):
+def test_what_is_there_stays_and_an_annulus_is_made_valid_after(
+    crossview: Crossview, case_file: CaseFile, tmp_path: Path
+) -> None:
     case = case_file({"builtin": "annulus"}, [((0.7, 0, 0), 6)])
     new, valid = tmp_path / "new.json", tmp_path / "valid.json"
     assert crossview("complete", case, "-o", new).status == 0
@@ -28,7 +34,7 @@ def test_what_is_there_stays_and_an_annulus_is_made_valid_after(crossview, case_
     assert report["isotropically_valid"]
 
 
-def test_a_complete_case_is_written_as_it_is(crossview, tmp_path):
+def test_a_complete_case_is_written_as_it_is(crossview: Crossview, tmp_path: Path) -> None:
     new = tmp_path / "same.json"
     ran = crossview("complete", "disk-4", "-o", new)
     assert ran.out == f"nothing is missing; wrote {new}\n"
@@ -39,7 +45,9 @@ def test_a_complete_case_is_written_as_it_is(crossview, tmp_path):
     ("name", "count"),
     [("plate_holes.stl", 32), ("skull_low_resolution.obj", 8), ("hand_lowres.obj", 4)],
 )
-def test_a_real_surface_is_completed(crossview, real_surface, tmp_path, name, count):
+def test_a_real_surface_is_completed(
+    crossview: Crossview, real_surface: Callable[[str], Path], tmp_path: Path, name: str, count: int
+) -> None:
     new = tmp_path / "new.json"
     ran = crossview("complete", real_surface(name), "-o", new, "--quiet")
     assert (ran.status, ran.err) == (0, "")

@@ -1,11 +1,14 @@
 """crossview make-valid: from a case that is off to one that is not."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 
+from tests.command_line import CaseFile, Crossview
 
-def test_a_gallery_case_far_from_valid_is_made_valid(crossview, tmp_path):
+
+def test_a_gallery_case_far_from_valid_is_made_valid(crossview: Crossview, tmp_path: Path) -> None:
     new = tmp_path / "valid.json"
     ran = crossview("make-valid", "annulus-far", "-o", new)
     assert (ran.status, ran.err) == (0, "")
@@ -19,7 +22,9 @@ def test_a_gallery_case_far_from_valid_is_made_valid(crossview, tmp_path):
     assert valences == [3, 3, 3, 3, 5, 5, 5, 5]
 
 
-def test_the_impossible_torus_is_refused_and_nothing_written(crossview, tmp_path):
+def test_the_impossible_torus_is_refused_and_nothing_written(
+    crossview: Crossview, tmp_path: Path
+) -> None:
     new = tmp_path / "valid.json"
     ran = crossview("make-valid", "torus-35", "-o", new)
     assert ran.status == 2
@@ -28,7 +33,9 @@ def test_the_impossible_torus_is_refused_and_nothing_written(crossview, tmp_path
     assert not new.exists()
 
 
-def test_a_missed_budget_is_told_with_its_remedy(crossview, case_file, tmp_path):
+def test_a_missed_budget_is_told_with_its_remedy(
+    crossview: Crossview, case_file: CaseFile, tmp_path: Path
+) -> None:
     case = case_file({"builtin": "annulus"}, [((0.7, 0, 0), 3)])
     ran = crossview("make-valid", case, "-o", tmp_path / "valid.json")
     assert ran.status == 2

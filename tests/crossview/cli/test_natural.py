@@ -1,9 +1,14 @@
 """crossview natural: from a surface alone to a case that solves."""
 
 import json
+from pathlib import Path
+
+from tests.command_line import Crossview
 
 
-def test_a_surface_gets_natural_singularities_and_solves(crossview, tmp_path):
+def test_a_surface_gets_natural_singularities_and_solves(
+    crossview: Crossview, tmp_path: Path
+) -> None:
     new = tmp_path / "natural.json"
     ran = crossview("natural", "disk", "-o", new, "--method", "ginzburg-landau")
     assert (ran.status, ran.err) == (0, "")
@@ -13,7 +18,7 @@ def test_a_surface_gets_natural_singularities_and_solves(crossview, tmp_path):
     assert report["isotropically_valid"]
 
 
-def test_an_unknown_method_is_one_line(crossview, tmp_path):
+def test_an_unknown_method_is_one_line(crossview: Crossview, tmp_path: Path) -> None:
     new = tmp_path / "natural.json"
     ran = crossview("natural", "disk", "-o", new, "--method", "best")
     assert ran.status == 2

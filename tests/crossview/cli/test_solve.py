@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from itertools import product
 from math import sqrt
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 import pyvista as pv
+
+from tests.command_line import CaseFile, Crossview
 
 FILES = {
     "report.json",
@@ -21,16 +26,16 @@ FILES = {
 CUBE = [(tuple(s / sqrt(3) for s in signs), 3) for signs in product((-1, 1), repeat=3)]
 
 
-def around(degrees, radius=0.7):
+def around(degrees: float, radius: float = 0.7) -> tuple[float, float, float]:
     """A point in the plane by its polar angle."""
     return (radius * np.cos(np.radians(degrees)), radius * np.sin(np.radians(degrees)), 0.0)
 
 
 @pytest.fixture
-def solved(crossview, tmp_path, case_file):
+def solved(crossview: Crossview, tmp_path: Path, case_file: CaseFile) -> Callable[..., Any]:
     """Solve a case by command; return its report."""
 
-    def solve(surface, singularities=(), **more):
+    def solve(surface: object, singularities: object = (), **more: object) -> Any:
         path = case_file(surface, singularities, **more)
         ran = crossview("solve", path, "-o", tmp_path / "out")
         assert ran.status == 0, ran.err
@@ -40,7 +45,7 @@ def solved(crossview, tmp_path, case_file):
     return solve
 
 
-def test_sphere_with_the_cubes_eight(solved, tmp_path):
+def test_sphere_with_the_cubes_eight(solved: Callable[..., Any], tmp_path: Path) -> None:
     report = solved({"builtin": "cube_sphere", "n": 12}, CUBE)
     assert report["index_sum"] == report["index_required"] == 8
     assert report["isotropically_valid"]
@@ -62,7 +67,7 @@ def test_sphere_with_the_cubes_eight(solved, tmp_path):
 
 
 @pytest.mark.parametrize("degrees", [15.0, 90.0, 165.0])
-def test_annulus_defect_is_the_closed_form(solved, degrees):
+def test_annulus_defect_is_the_closed_form(solved: Callable[..., Any], degrees: float) -> None:
     # r = wrap(sum of k_j phi_j / 4); phi_j the polar angles
     report = solved(
         {"builtin": "annulus", "n": 96},
@@ -78,14 +83,14 @@ def test_annulus_defect_is_the_closed_form(solved, degrees):
     assert misaligned == pytest.approx([0, degrees / 4], abs=1e-3)
 
 
-def test_annulus_with_opposite_pairs_on_rays_is_valid(solved):
+def test_annulus_with_opposite_pairs_on_rays_is_valid(solved: Callable[..., Any]) -> None:
     placed = [(around(45 * i, r), v) for i in range(4) for r, v in ((0.6, 3), (0.8, 5))]
     report = solved("annulus", placed, options={"refine": 0})
     assert report["isotropically_valid"]
     assert np.abs(report["boundary_misalignment_degrees"]).max() < 0.01
 
 
-def test_the_tolerance_decides(solved):
+def test_the_tolerance_decides(solved: Callable[..., Any]) -> None:
     placed = [(around(0), 3), (around(15), 5)]
     options = {"refine": 0, "tolerance_degrees": 4}
     report = solved("annulus", placed, options=options)
@@ -93,7 +98,7 @@ def test_the_tolerance_decides(solved):
     assert report["isotropically_valid"]
 
 
-def test_torus_with_one_3_and_one_5_is_never_valid(solved):
+def test_torus_with_one_3_and_one_5_is_never_valid(solved: Callable[..., Any]) -> None:
     report = solved("torus", [((1.4, 0, 0), 3), ((-0.3, 1.1, 0.35), 5)])
     assert (report["index_sum"], report["index_required"]) == (0, 0)
     assert [c["kind"] for c in report["holonomy"]] == ["loop", "loop"]
@@ -104,7 +109,7 @@ def test_torus_with_one_3_and_one_5_is_never_valid(solved):
     assert report["max_closing_error"] < 1e-9
 
 
-def test_paraview_reads_the_fields(solved, tmp_path):
+def test_paraview_reads_the_fields(solved: Callable[..., Any], tmp_path: Path) -> None:
     report = solved("disk", [(around(90 * i, 0.5), 3) for i in range(4)])
     out = tmp_path / "out"
     surface = pv.read(out / "surface.vtp")
@@ -144,7 +149,9 @@ def test_paraview_reads_the_fields(solved, tmp_path):
         assert np.linalg.norm(piece.points, axis=1).max() == pytest.approx(1)
 
 
-def test_a_surface_without_singularities_has_a_field_too(solved, tmp_path):
+def test_a_surface_without_singularities_has_a_field_too(
+    solved: Callable[..., Any], tmp_path: Path
+) -> None:
     report = solved("square")
     assert report["index_sum"] == report["index_required"] == 4
     assert sorted(c["index"] for c in report["corners"]) == [1, 1, 1, 1]
@@ -152,7 +159,7 @@ def test_a_surface_without_singularities_has_a_field_too(solved, tmp_path):
     assert pv.read(tmp_path / "out" / "singularities.vtp").n_points == 0
 
 
-def test_corners_may_be_given(solved):
+def test_corners_may_be_given(solved: Callable[..., Any]) -> None:
     # a disk drawn as a square with round sides: four corners instead of four singularities
     corners = [{"position": around(90 * i, 1.0), "index": 1} for i in range(4)]
     report = solved("disk", corners=corners)
@@ -161,7 +168,7 @@ def test_corners_may_be_given(solved):
     assert np.abs(found - [c["position"] for c in corners]).max() < 0.03
 
 
-def test_singularities_on_vertices_edges_and_in_triangles(solved):
+def test_singularities_on_vertices_edges_and_in_triangles(solved: Callable[..., Any]) -> None:
     # the square's vertices are at multiples of 1/8: a vertex, an edge, inside
     placed = [((0, 0, 0), 3), ((0.0625, 0.25, 0), 5)]
     placed += [((-0.27, -0.13, 0), 3), ((0.21, -0.3, 0), 5)]
@@ -170,13 +177,13 @@ def test_singularities_on_vertices_edges_and_in_triangles(solved):
     assert report["max_closing_error"] < 1e-9
 
 
-def test_positions_beside_the_surface_are_projected(solved):
+def test_positions_beside_the_surface_are_projected(solved: Callable[..., Any]) -> None:
     report = solved("sphere", [(np.multiply(p, 1.1).tolist(), v) for p, v in CUBE])
     found = np.array([s["position"] for s in report["singularities"]])
     assert np.abs(np.linalg.norm(found, axis=1) - 1).max() < 0.01
 
 
-def test_json_prints_the_report_and_nothing_else(crossview, tmp_path):
+def test_json_prints_the_report_and_nothing_else(crossview: Crossview, tmp_path: Path) -> None:
     ran = crossview("solve", "square", "-o", tmp_path / "out", "--json")
     written = json.loads((tmp_path / "out" / "report.json").read_text())
     assert ran.json == written
@@ -184,7 +191,9 @@ def test_json_prints_the_report_and_nothing_else(crossview, tmp_path):
     assert crossview("solve", "square", "-o", tmp_path / "out", "--quiet").out == ""
 
 
-def test_solving_again_replaces_the_results_and_leaves_other_files(crossview, tmp_path):
+def test_solving_again_replaces_the_results_and_leaves_other_files(
+    crossview: Crossview, tmp_path: Path
+) -> None:
     out = tmp_path / "out"
     out.mkdir()
     (out / "mine.txt").write_text("kept")

@@ -3,6 +3,7 @@
 import re
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -44,7 +45,9 @@ def count(image: Image.Image, color: str, tolerance: int = 3) -> int:
     return int((np.abs(pixels - wanted) <= tolerance).all(axis=-1).sum())
 
 
-def test_png_of_the_size_asked_with_the_colours_of_the_paper(solution, tmp_path):
+def test_png_of_the_size_asked_with_the_colours_of_the_paper(
+    solution: Solution, tmp_path: Path
+) -> None:
     path = render(solution, tmp_path / "a.png", size=SIZE, scale=2)
     image = Image.open(path)
     assert image.size == (800, 600)
@@ -52,7 +55,7 @@ def test_png_of_the_size_asked_with_the_colours_of_the_paper(solution, tmp_path)
     assert image.convert("RGB").getpixel((0, 0)) == (255, 255, 255)
 
 
-def test_only_the_layers_asked_are_drawn(solution, tmp_path):
+def test_only_the_layers_asked_are_drawn(solution: Solution, tmp_path: Path) -> None:
     names = ["surface", "boundary", "cut"]
     image = Image.open(render(solution, tmp_path / "a.png", layers=names, size=SIZE))
     assert count(image, valence_color(3)) == 0
@@ -62,7 +65,9 @@ def test_only_the_layers_asked_are_drawn(solution, tmp_path):
     assert colourful.mean() < 0.03
 
 
-def test_transparent_has_no_background_but_the_same_surface(solution, tmp_path):
+def test_transparent_has_no_background_but_the_same_surface(
+    solution: Solution, tmp_path: Path
+) -> None:
     opaque = Image.open(render(solution, tmp_path / "a.png", size=SIZE)).convert("RGB")
     clear = Image.open(render(solution, tmp_path / "b.png", size=SIZE, transparent=True))
     assert clear.mode == "RGBA"
@@ -75,14 +80,14 @@ def test_transparent_has_no_background_but_the_same_surface(solution, tmp_path):
     assert np.mean(off.max(axis=-1) > 24) < 0.01
 
 
-def test_scale_keeps_the_layout(solution, tmp_path):
+def test_scale_keeps_the_layout(solution: Solution, tmp_path: Path) -> None:
     small = Image.open(render(solution, tmp_path / "a.png", size=SIZE)).convert("RGB")
     large = Image.open(render(solution, tmp_path / "b.png", size=SIZE, scale=3)).convert("RGB")
     off = np.abs(np.asarray(large.reduce(3), int) - np.asarray(small, int)).max(axis=-1)
     assert off.mean() < 6.0
 
 
-def test_svg_has_true_lines_discs_and_words(solution, tmp_path):
+def test_svg_has_true_lines_discs_and_words(solution: Solution, tmp_path: Path) -> None:
     names = ["surface", "H", "crosses", "singularities", "cut", "boundary", "legend", "axes"]
     text = render(solution, tmp_path / "a.svg", layers=names, size=SIZE).read_text()
     assert text.count("<image") == 1
@@ -96,13 +101,13 @@ def test_svg_has_true_lines_discs_and_words(solution, tmp_path):
     ).read_text()
 
 
-def test_pdf_is_one_page_of_the_layouts_size(solution, tmp_path):
+def test_pdf_is_one_page_of_the_layouts_size(solution: Solution, tmp_path: Path) -> None:
     data = render(solution, tmp_path / "a.pdf", size=SIZE).read_bytes()
     assert data.startswith(b"%PDF")
     assert b"/MediaBox [ 0 0 144 108 ]" in data
 
 
-def test_what_the_surface_hides_is_no_vector_either(tmp_path):
+def test_what_the_surface_hides_is_no_vector_either(tmp_path: Path) -> None:
     case = Case.from_json({"surface": {"builtin": "torus", "n": 48}}, Path())
     (solved,) = run(solve_case(case))
     seen, hidden = Marker((0.0, 0.0, 0.4), 6), Marker((0.0, 1.0, -0.4), 8)
@@ -127,8 +132,8 @@ def test_what_the_surface_hides_is_no_vector_either(tmp_path):
     ],
 )
 def test_mistakes_are_told_in_one_line_and_nothing_is_written(
-    solution, tmp_path, name, options, words
-):
+    solution: Solution, tmp_path: Path, name: str, options: dict[str, Any], words: str
+) -> None:
     with pytest.raises(CrossviewError, match=words) as caught:
         render(solution, tmp_path / name, **options)
     assert "\n" not in str(caught.value)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import meshio
 import numpy as np
@@ -17,12 +18,12 @@ from tests.solvers.quads.quad_grids import GRIDS
 
 
 @pytest.fixture(params=["annulus", "sphere", "square"])
-def mesh(request) -> QuadMesh:
+def mesh(request: pytest.FixtureRequest) -> QuadMesh:
     return GRIDS[request.param]()
 
 
 @pytest.mark.parametrize("suffix", [".obj", ".ply", ".vtk", ".vtu", ".msh"])
-def test_quads_come_back_as_they_are(mesh, tmp_path, suffix):
+def test_quads_come_back_as_they_are(mesh: QuadMesh, tmp_path: Path, suffix: str) -> None:
     path = tmp_path / f"quads{suffix}"
     write_mesh(mesh, path)
     back = meshio.gmsh.read(path) if suffix == ".msh" else meshio.read(path)
@@ -33,7 +34,9 @@ def test_quads_come_back_as_they_are(mesh, tmp_path, suffix):
 
 
 @pytest.mark.parametrize("suffix", WRITERS)
-def test_written_meshes_are_surfaces_that_can_be_read(mesh, tmp_path, suffix):
+def test_written_meshes_are_surfaces_that_can_be_read(
+    mesh: QuadMesh, tmp_path: Path, suffix: str
+) -> None:
     path = tmp_path / f"quads{suffix}"
     write_mesh(mesh, path)
     raw = read_surface(path)
@@ -48,7 +51,7 @@ def test_written_meshes_are_surfaces_that_can_be_read(mesh, tmp_path, suffix):
     )
 
 
-def test_vtk_says_what_is_at_vertices_and_quads(tmp_path):
+def test_vtk_says_what_is_at_vertices_and_quads(tmp_path: Path) -> None:
     mesh = GRIDS["annulus"]()
     write_mesh(mesh, tmp_path / "quads.vtk")
     grid = pv.read(tmp_path / "quads.vtk")
@@ -63,7 +66,7 @@ def test_vtk_says_what_is_at_vertices_and_quads(tmp_path):
     assert grid.cell_data["patch"].tolist() == mesh.patch.tolist()
 
 
-def test_msh_names_each_boundary(tmp_path):
+def test_msh_names_each_boundary(tmp_path: Path) -> None:
     mesh = GRIDS["annulus"]()
     write_mesh(mesh, tmp_path / "quads.msh")
     back = meshio.gmsh.read(tmp_path / "quads.msh")
@@ -84,7 +87,7 @@ def test_msh_names_each_boundary(tmp_path):
         assert (np.sign(turned) == (1 if radius == 1.0 else -1)).all()
 
 
-def test_a_closed_mesh_has_no_boundary(tmp_path):
+def test_a_closed_mesh_has_no_boundary(tmp_path: Path) -> None:
     mesh = GRIDS["sphere"]()
     assert len(boundary_edges(mesh)[0]) == 0
     write_mesh(mesh, tmp_path / "quads.msh")
@@ -94,7 +97,7 @@ def test_a_closed_mesh_has_no_boundary(tmp_path):
 
 
 @pytest.mark.parametrize("suffix", [".gltf", ".glb"])
-def test_gltf_splits_quads_along_the_shorter_diagonal(tmp_path, suffix):
+def test_gltf_splits_quads_along_the_shorter_diagonal(tmp_path: Path, suffix: str) -> None:
     mesh = GRIDS["annulus"]()
     write_mesh(mesh, tmp_path / f"quads{suffix}")
     raw = read_surface(tmp_path / f"quads{suffix}")
@@ -112,7 +115,7 @@ def test_gltf_splits_quads_along_the_shorter_diagonal(tmp_path, suffix):
         assert (frozenset(quad[1::2]) in drawn) != first
 
 
-def test_what_cannot_be_written_is_told_and_leaves_the_old_file(tmp_path):
+def test_what_cannot_be_written_is_told_and_leaves_the_old_file(tmp_path: Path) -> None:
     mesh = GRIDS["square"]()
     with pytest.raises(CrossviewError, match=r'to "\.stl" files .*: use one of obj vtk vtu ply'):
         write_mesh(mesh, tmp_path / "quads.stl")
@@ -122,7 +125,7 @@ def test_what_cannot_be_written_is_told_and_leaves_the_old_file(tmp_path):
     assert (tmp_path / "file").read_text() == "mine"
 
 
-def test_gltf_is_what_its_specification_says(tmp_path):
+def test_gltf_is_what_its_specification_says(tmp_path: Path) -> None:
     mesh = GRIDS["square"]()
     write_mesh(mesh, tmp_path / "quads.gltf")
     document = json.loads((tmp_path / "quads.gltf").read_text())

@@ -1,6 +1,7 @@
 """Figures of quads, separatrices and marks as vectors: drawn through the same camera, or hidden."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -39,12 +40,12 @@ def view() -> SceneView:
     )
 
 
-def strokes(path, color: str) -> int:
+def strokes(path: Path, color: str) -> int:
     text = path.read_text()
     return sum(text.count(f"{kind}: {color}") for kind in ("stroke", "fill"))
 
 
-def test_what_the_surface_hides_is_left_out(view, tmp_path):
+def test_what_the_surface_hides_is_left_out(view: SceneView, tmp_path: Path) -> None:
     path = render_view(view, tmp_path / "a.svg", size=SIZE, camera="xy")
     # a run of short pieces from limb to limb
     assert strokes(path, valence_color(3)) > 40
@@ -54,7 +55,7 @@ def test_what_the_surface_hides_is_left_out(view, tmp_path):
     assert "#111317" not in path.read_text()
 
 
-def test_edges_and_irregular_vertices_are_vectors(view, tmp_path):
+def test_edges_and_irregular_vertices_are_vectors(view: SceneView, tmp_path: Path) -> None:
     layers = layers_named(["quads"])
     path = render_view(
         replace(view, layers=layers), tmp_path / "a.svg", size=SIZE, camera="3,2,4,0,0,0,0,1,0"
@@ -65,7 +66,7 @@ def test_edges_and_irregular_vertices_are_vectors(view, tmp_path):
     assert "scaled Jacobian" in path.read_text()
 
 
-def test_borders_of_patches_in_ink(view, tmp_path):
+def test_borders_of_patches_in_ink(view: SceneView, tmp_path: Path) -> None:
     shown = replace(view, layers=layers_named(["layout"]))
     path = render_view(shown, tmp_path / "a.svg", size=SIZE, camera="3,2,4,0,0,0,0,1,0")
     assert strokes(path, THEMES["white"].ink) >= 9

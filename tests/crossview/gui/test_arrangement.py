@@ -4,12 +4,15 @@ from collections.abc import Callable, Iterator
 
 import pytest
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
 
 from crossview.gui.main_window import MainWindow
 
 
 @pytest.fixture
-def session(app, settings: None, nothing_left: None) -> Iterator[Callable[[], MainWindow]]:
+def session(
+    app: QApplication, settings: None, nothing_left: None
+) -> Iterator[Callable[[], MainWindow]]:
     """Starts windows one after the other; each is closed when the next one comes."""
     windows: list[MainWindow] = []
 

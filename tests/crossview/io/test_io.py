@@ -2,28 +2,32 @@
 
 import json
 import struct
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 import meshio
 import numpy as np
 import pytest
 import pyvista as pv
 
-from crossview.io import SUFFIXES, read_surface
+from crossview.io import SUFFIXES, RawSurface, read_surface
 from solvers.errors import CrossviewError
 from solvers.primitives import sphere, torus
 from solvers.repair.soup import repair
+from solvers.surface.trisurface import TriSurface
 
 
 @pytest.fixture
-def ball():
+def ball() -> TriSurface:
     return sphere(1)
 
 
-def mesh_of(surface):
+def mesh_of(surface: TriSurface) -> pv.PolyData:
     return pv.PolyData.from_regular_faces(surface.vertices, surface.faces)
 
 
-def gltf(nodes, surfaces):
+def gltf(nodes: list[dict[str, Any]], surfaces: list[TriSurface]) -> tuple[dict[str, Any], bytes]:
     """A minimal glTF scene of triangle meshes in single precision."""
     buffer, views, accessors, meshes = b"", [], [], []
     for surface in surfaces:
@@ -53,7 +57,7 @@ def gltf(nodes, surfaces):
     return document, buffer
 
 
-def write_glb(path, nodes, surfaces):
+def write_glb(path: Path, nodes: list[dict[str, Any]], surfaces: list[TriSurface]) -> None:
     document, buffer = gltf(nodes, surfaces)
     text = json.dumps(document).encode()
     text += b" " * (-len(text) % 4)
@@ -62,39 +66,39 @@ def write_glb(path, nodes, surfaces):
     path.write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks)
 
 
-def write_gltf(path, nodes, surfaces):
+def write_gltf(path: Path, nodes: list[dict[str, Any]], surfaces: list[TriSurface]) -> None:
     document, buffer = gltf(nodes, surfaces)
     document["buffers"][0]["uri"] = path.stem + ".bin"
     path.with_suffix(".bin").write_bytes(buffer)
     path.write_text(json.dumps(document))
 
 
-def write_obj(path, surface):
+def write_obj(path: Path, surface: TriSurface) -> None:
     lines = [f"v {x} {y} {z}" for x, y, z in surface.vertices.tolist()]
     lines += [f"f {a} {b} {c}" for a, b, c in (surface.faces + 1).tolist()]
     path.write_text("\n".join(lines))
 
 
-def write_off(path, surface):
+def write_off(path: Path, surface: TriSurface) -> None:
     lines = ["OFF", f"{surface.n_vertices} {surface.n_faces} 0"]
     lines += [f"{x} {y} {z}" for x, y, z in surface.vertices.tolist()]
     lines += [f"3 {a} {b} {c}" for a, b, c in surface.faces.tolist()]
     path.write_text("\n".join(lines))
 
 
-def write_msh(version, *, binary):
-    def write(path, surface):
+def write_msh(version: str, *, binary: bool) -> Callable[[Path, TriSurface], None]:
+    def write(path: Path, surface: TriSurface) -> None:
         mesh = meshio.Mesh(surface.vertices, [("triangle", surface.faces)])
         meshio.gmsh.write(path, mesh, version, binary=binary)
 
     return write
 
 
-def save(**options):
+def save(**options: Any) -> Callable[[Path, TriSurface], None]:
     return lambda path, surface: mesh_of(surface).save(path, **options)
 
 
-def save_grid(path, surface):
+def save_grid(path: Path, surface: TriSurface) -> None:
     pv.UnstructuredGrid({pv.CellType.TRIANGLE: surface.faces}, surface.vertices).save(path)
 
 
@@ -119,12 +123,12 @@ FORMATS = {
 }
 
 
-def test_every_format_is_written_here():
+def test_every_format_is_written_here() -> None:
     assert {suffix for suffix, _ in FORMATS.values()} == set(SUFFIXES)
 
 
 @pytest.mark.parametrize("name", FORMATS)
-def test_what_is_written_is_read_back(name, ball, tmp_path):
+def test_what_is_written_is_read_back(name: str, ball: TriSurface, tmp_path: Path) -> None:
     suffix, write = FORMATS[name]
     path = tmp_path / f"ball{suffix}"
     write(path, ball)
@@ -137,7 +141,9 @@ def test_what_is_written_is_read_back(name, ball, tmp_path):
 
 @pytest.mark.parametrize("name", FORMATS)
 @pytest.mark.parametrize("damage", ["half", "quarter", "noise", "other"])
-def test_damaged_files_are_refused_in_one_line(name, damage, ball, tmp_path):
+def test_damaged_files_are_refused_in_one_line(
+    name: str, damage: str, ball: TriSurface, tmp_path: Path
+) -> None:
     suffix, write = FORMATS[name]
     path = tmp_path / f"ball{suffix}"
     write(path, ball)
@@ -160,7 +166,9 @@ def test_damaged_files_are_refused_in_one_line(name, damage, ball, tmp_path):
     assert str(path) in str(caught.value)
 
 
-def test_reading_damaged_files_is_silent(ball, tmp_path, capfd):
+def test_reading_damaged_files_is_silent(
+    ball: TriSurface, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
     for name in ("vtk text", "vtk binary", "vtp binary", "gltf", "msh 4.1 text"):
         suffix, write = FORMATS[name]
         path = tmp_path / f"ball{suffix}"
@@ -173,7 +181,9 @@ def test_reading_damaged_files_is_silent(ball, tmp_path, capfd):
 
 
 @pytest.mark.parametrize("name", [name for name in FORMATS if name.startswith("msh")])
-def test_msh_cut_short_by_a_byte_is_refused(name, ball, tmp_path, capfd):
+def test_msh_cut_short_by_a_byte_is_refused(
+    name: str, ball: TriSurface, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
     path = tmp_path / "ball.msh"
     FORMATS[name][1](path, ball)
     path.write_bytes(path.read_bytes().rstrip()[:-1])
@@ -184,7 +194,7 @@ def test_msh_cut_short_by_a_byte_is_refused(name, ball, tmp_path, capfd):
 
 
 @pytest.mark.parametrize("suffix", SUFFIXES)
-def test_missing_and_empty_files(suffix, tmp_path):
+def test_missing_and_empty_files(suffix: str, tmp_path: Path) -> None:
     path = tmp_path / f"x{suffix}"
     with pytest.raises(CrossviewError, match="no such file"):
         read_surface(path)
@@ -193,25 +203,25 @@ def test_missing_and_empty_files(suffix, tmp_path):
         read_surface(path)
 
 
-def test_a_folder_is_no_surface(tmp_path):
+def test_a_folder_is_no_surface(tmp_path: Path) -> None:
     (tmp_path / "folder.obj").mkdir()
     with pytest.raises(CrossviewError, match="directory"):
         read_surface(tmp_path / "folder.obj")
 
 
 @pytest.mark.parametrize("name", ["x.step", "x"])
-def test_unknown_endings_name_the_known_ones(name, tmp_path):
+def test_unknown_endings_name_the_known_ones(name: str, tmp_path: Path) -> None:
     with pytest.raises(CrossviewError, match="obj ply stl"):
         read_surface(tmp_path / name)
 
 
 class TestObj:
-    def read(self, tmp_path, text):
+    def read(self, tmp_path: Path, text: str) -> RawSurface:
         path = tmp_path / "x.obj"
         path.write_text(text)
         return read_surface(path)
 
-    def test_texture_and_normal_seams_do_not_split_vertices(self, tmp_path):
+    def test_texture_and_normal_seams_do_not_split_vertices(self, tmp_path: Path) -> None:
         raw = self.read(
             tmp_path,
             """
@@ -233,21 +243,21 @@ class TestObj:
         assert raw.vertices.shape == (4, 3)
         assert not raw.merge
 
-    def test_negative_numbers_count_back(self, tmp_path):
+    def test_negative_numbers_count_back(self, tmp_path: Path) -> None:
         raw = self.read(
             tmp_path,
             "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 1 1 0\nf -3/1 -1/2 -2/1\n",
         )
         assert raw.faces.tolist() == [[0, 1, 2], [1, 3, 2]]
 
-    def test_faces_may_come_before_the_vertices(self, tmp_path):
+    def test_faces_may_come_before_the_vertices(self, tmp_path: Path) -> None:
         raw = self.read(tmp_path, "f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n")
         assert repair(raw.vertices, raw.faces).surface.n_faces == 1
 
-    def test_lines_may_be_continued(self, tmp_path):
+    def test_lines_may_be_continued(self, tmp_path: Path) -> None:
         assert len(self.read(tmp_path, "v 0 0 0\nv 1 0 0\nv 0 \\\n1 0\nf 1 2 \\\n3\n").faces) == 1
 
-    def test_polygons_are_split_even_those_not_convex(self, tmp_path):
+    def test_polygons_are_split_even_those_not_convex(self, tmp_path: Path) -> None:
         raw = self.read(
             tmp_path,
             "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 2 1 0\nv 0 4 0\nv 2 -3 0\nf 1 2 3 4 5\nf 1 6 2\n",
@@ -269,12 +279,12 @@ class TestObj:
             ("v 0 0 0\nv 1 0 0\nv 0 1 0\n", "no faces"),
         ],
     )
-    def test_bad_lines_are_named(self, tmp_path, text, words):
+    def test_bad_lines_are_named(self, tmp_path: Path, text: str, words: str) -> None:
         with pytest.raises(CrossviewError, match=words):
             self.read(tmp_path, text)
 
 
-def test_off_variants_and_polygons(tmp_path):
+def test_off_variants_and_polygons(tmp_path: Path) -> None:
     path = tmp_path / "x.off"
     path.write_text(
         "COFF 4 1 0 # square\n\n0 0 0 255 0 0\n1 0 0 255 0 0\n1 1 0 0 0 0\n0 1 0 9 9 9\n"
@@ -284,7 +294,7 @@ def test_off_variants_and_polygons(tmp_path):
     assert repair(raw.vertices, raw.faces).surface.area == pytest.approx(1)
 
 
-def test_binary_stl_that_begins_with_solid(tmp_path, ball):
+def test_binary_stl_that_begins_with_solid(tmp_path: Path, ball: TriSurface) -> None:
     path = tmp_path / "x.stl"
     mesh_of(ball).save(path)
     data = path.read_bytes()
@@ -317,7 +327,7 @@ end_header
 """
 
 
-def test_ply_with_other_elements_and_lists_of_mixed_length(tmp_path):
+def test_ply_with_other_elements_and_lists_of_mixed_length(tmp_path: Path) -> None:
     path = tmp_path / "x.ply"
     path.write_text(PLY_SQUARE)
     raw = read_surface(path)
@@ -327,7 +337,7 @@ def test_ply_with_other_elements_and_lists_of_mixed_length(tmp_path):
 
 
 @pytest.mark.parametrize("order", ["<", ">"])
-def test_binary_ply_of_both_byte_orders_with_mixed_polygons(order, tmp_path):
+def test_binary_ply_of_both_byte_orders_with_mixed_polygons(order: str, tmp_path: Path) -> None:
     kind = {"<": "binary_little_endian", ">": "binary_big_endian"}[order]
     header = (
         f"ply\nformat {kind} 1.0\nelement vertex 5\nproperty double x\nproperty double y\n"
@@ -341,7 +351,7 @@ def test_binary_ply_of_both_byte_orders_with_mixed_polygons(order, tmp_path):
     assert repair(raw.vertices, raw.faces).surface.area == pytest.approx(1.5)
 
 
-def test_vtk_strips_lines_and_points(tmp_path):
+def test_vtk_strips_lines_and_points(tmp_path: Path) -> None:
     path = tmp_path / "x.vtk"
     path.write_text(
         "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n"
@@ -352,7 +362,7 @@ def test_vtk_strips_lines_and_points(tmp_path):
     assert repair(raw.vertices, raw.faces).surface.area == pytest.approx(1)
 
 
-def test_vtk_volumes_give_their_outer_surface(tmp_path):
+def test_vtk_volumes_give_their_outer_surface(tmp_path: Path) -> None:
     path = tmp_path / "x.vtk"
     pv.ImageData(dimensions=(4, 4, 4)).cast_to_unstructured_grid().save(path)
     raw = read_surface(path)
@@ -362,7 +372,7 @@ def test_vtk_volumes_give_their_outer_surface(tmp_path):
     assert surface.area == pytest.approx(54)
 
 
-def test_vtk_cells_that_name_missing_points_are_refused(tmp_path):
+def test_vtk_cells_that_name_missing_points_are_refused(tmp_path: Path) -> None:
     path = tmp_path / "x.vtk"
     path.write_text(
         "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n"
@@ -372,7 +382,7 @@ def test_vtk_cells_that_name_missing_points_are_refused(tmp_path):
         read_surface(path)
 
 
-def test_gltf_scenes_are_joined_as_placed(tmp_path, ball):
+def test_gltf_scenes_are_joined_as_placed(tmp_path: Path, ball: TriSurface) -> None:
     path = tmp_path / "x.glb"
     nodes = [{"mesh": 0}, {"mesh": 1, "translation": [5, 0, 0], "scale": [2, 2, 2]}]
     write_glb(path, nodes, [ball, torus(n=12)])
@@ -384,7 +394,7 @@ def test_gltf_scenes_are_joined_as_placed(tmp_path, ball):
     assert raw.vertices[:, 0].max() == pytest.approx(right, rel=1e-6)
 
 
-def test_msh_with_quads_curved_triangles_and_volumes(tmp_path):
+def test_msh_with_quads_curved_triangles_and_volumes(tmp_path: Path) -> None:
     corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 0, 0], [0, 0, 1]]
     middles = [[1.5, 0, 0.1], [1.5, 0.5, 0], [1, 0.5, 0]]
     cells = [
@@ -417,7 +427,14 @@ def test_msh_with_quads_curved_triangles_and_volumes(tmp_path):
         ("gen_annulus.obj", 1369, 2556, 0, 2),
     ],
 )
-def test_real_surfaces(real_surface, name, vertices, faces, genus, loops):
+def test_real_surfaces(
+    real_surface: Callable[[str], Path],
+    name: str,
+    vertices: int,
+    faces: int,
+    genus: int,
+    loops: int,
+) -> None:
     raw = read_surface(real_surface(name))
     surface = repair(raw.vertices, raw.faces, merge=raw.merge).surface
     assert (surface.n_vertices, surface.n_faces) == (vertices, faces)

@@ -2,13 +2,14 @@
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from crossview.scene.crosses import CrossGlyphs
 from crossview.view.geometry import Triangles
 from solvers.primitives import square
 
 
-def field(triangles: Triangles, degrees: float):
+def field(triangles: Triangles, degrees: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """A unit cross at an angle against x or, on sides along x, y."""
     n = triangles.normals
     first = np.where(np.abs(n[:, :1]) > 0.5, [[0.0, 1.0, 0.0]], [[1.0, 0.0, 0.0]])
@@ -35,7 +36,7 @@ def cube(n: int) -> Triangles:
     return Triangles(points[first], numbers.reshape(-1)[faces])
 
 
-def test_arms_follow_the_field_and_the_size():
+def test_arms_follow_the_field_and_the_size() -> None:
     plate = Triangles(square(24).vertices, square(24).faces)
     u, v = field(plate, 30.0)
     h = plate.points[:, 0]
@@ -58,7 +59,7 @@ def test_arms_follow_the_field_and_the_size():
 
 
 @pytest.mark.parametrize("degrees", [0.0, 45.0])
-def test_no_arm_leaves_a_cube(degrees):
+def test_no_arm_leaves_a_cube(degrees: float) -> None:
     box = cube(16)
     assert len(box.boundary_edges) == 0
     assert len(box.sharp_edges(50.0)) == 12 * 16

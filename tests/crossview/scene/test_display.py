@@ -9,7 +9,7 @@ import pytest
 from crossview.scene.display import RenderingError, ensure_rendering, require, software_renderer
 
 
-def test_missing_libraries_are_named_with_their_cure():
+def test_missing_libraries_are_named_with_their_cure() -> None:
     packages = {"libc.so.6": "libc6", "libNotThere.so.9": "libnot1", "libNorThis.so": "libnor1"}
     with pytest.raises(RenderingError) as caught:
         require(packages)
@@ -19,13 +19,13 @@ def test_missing_libraries_are_named_with_their_cure():
     )
 
 
-def test_this_machine_draws():
+def test_this_machine_draws() -> None:
     ensure_rendering()
     assert isinstance(software_renderer(), bool)
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="EGL is Linux's")
-def test_without_a_display_vtk_is_sent_to_egl():
+def test_without_a_display_vtk_is_sent_to_egl() -> None:
     code = (
         "from crossview.scene import ensure_rendering; ensure_rendering()\n"
         "import pyvista; p = pyvista.Plotter(off_screen=True); p.screenshot(return_img=True)\n"

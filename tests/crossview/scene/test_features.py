@@ -8,6 +8,7 @@ from solvers.features.edges import Features
 from solvers.features.sharp_edges import sharp_edges
 from solvers.primitives import BUILTIN
 from solvers.surface.trisurface import TriSurface
+from tests.crossview.scene.stage import Stage
 from tests.windowing import count_color
 
 
@@ -16,7 +17,7 @@ def cube() -> TriSurface:
     return TriSurface(sphere.vertices / np.abs(sphere.vertices).max(axis=1)[:, None], sphere.faces)
 
 
-def test_features_are_drawn_and_missed_ones_differ(stage):
+def test_features_are_drawn_and_missed_ones_differ(stage: Stage) -> None:
     surface = cube()
     edges = Features(surface, sharp_edges(surface, 40)).ends
     layers = layers_named(["surface", "features"])

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from crossview.scene.camera import Camera, Room, camera_for
 from crossview.view.field import cross_angle
@@ -11,11 +12,11 @@ from solvers.primitives import annulus, blob, square, torus
 from solvers.surface.trisurface import TriSurface
 
 
-def triangles(surface) -> Triangles:
+def triangles(surface: TriSurface) -> Triangles:
     return Triangles(surface.vertices, surface.faces)
 
 
-def covered(ends, segments) -> np.ndarray:
+def covered(ends: NDArray[np.float64], segments: NDArray[np.int64]) -> np.ndarray:
     """Intervals drawn along x, joined where they touch."""
     spans = np.sort(ends[segments][:, :, 0], axis=1)
     spans = spans[np.argsort(spans[:, 0])]
@@ -24,7 +25,7 @@ def covered(ends, segments) -> np.ndarray:
 
 
 class TestDashes:
-    def test_run_on_from_edge_to_edge(self):
+    def test_run_on_from_edge_to_edge(self) -> None:
         x = np.sort(np.r_[0.0, np.random.default_rng(2).random(40), 1.0])
         points = np.column_stack([x, 0 * x, 0 * x])
         i = np.arange(len(x) - 1)
@@ -32,7 +33,7 @@ class TestDashes:
         starts = np.arange(10) * 0.1
         assert np.allclose(covered(ends, segments), np.stack([starts, starts + 0.06], 1))
 
-    def test_lie_on_a_closed_loop_and_cover_their_share(self):
+    def test_lie_on_a_closed_loop_and_cover_their_share(self) -> None:
         turn = np.linspace(0.0, 2.0 * np.pi, 400, endpoint=False)
         points = np.stack([np.cos(turn), np.sin(turn), 0 * turn], 1)
         i = np.arange(400)
@@ -41,14 +42,14 @@ class TestDashes:
         assert drawn / (2.0 * np.pi) == pytest.approx(0.6, abs=0.02)
         assert np.abs(np.linalg.norm(ends, axis=1) - 1.0).max() < 1e-4
 
-    def test_separate_pieces_are_all_dashed(self):
+    def test_separate_pieces_are_all_dashed(self) -> None:
         points = np.array([[0, 0, 0], [1, 0, 0], [0, 5, 0], [1, 5, 0]], float)
         ends, _ = dashes(points, np.array([[0, 1], [3, 2]]), 0.3, 0.2)
         assert {0.0, 5.0} == set(ends[:, 1])
 
 
 class TestTriangles:
-    def test_boundary_edges_are_those_of_the_loops(self):
+    def test_boundary_edges_are_those_of_the_loops(self) -> None:
         ring = annulus(n=24)
         wanted = {
             frozenset(map(int, pair))
@@ -57,11 +58,11 @@ class TestTriangles:
         }
         assert {frozenset(map(int, e)) for e in triangles(ring).boundary_edges} == wanted
 
-    def test_only_planar_surfaces_have_a_plane(self):
+    def test_only_planar_surfaces_have_a_plane(self) -> None:
         assert np.allclose(triangles(square(4)).plane_normal, [0.0, 0.0, 1.0])
         assert triangles(torus(n=24)).plane_normal is None
 
-    def test_cross_angle_is_that_of_a_turned_field_up_to_a_quarter_turn(self):
+    def test_cross_angle_is_that_of_a_turned_field_up_to_a_quarter_turn(self) -> None:
         plate = square(4)
         for degrees in (0.0, 20.0, 75.0, 110.0, -33.0):
             a = np.radians(degrees)
@@ -76,7 +77,7 @@ class TestTriangles:
 ROOM = Room(800, 600, left=20, right=120, top=40, bottom=60)
 
 
-def pixels(camera: Camera, points) -> np.ndarray:
+def pixels(camera: Camera, points: NDArray[np.float64]) -> np.ndarray:
     """Where points fall, in pixels from the bottom left, by VTK's conventions."""
     from vtkmodules.vtkRenderingCore import vtkCamera
 
@@ -92,19 +93,19 @@ def pixels(camera: Camera, points) -> np.ndarray:
 class TestCamera:
     @pytest.mark.parametrize("preset", ["auto", "iso", "xy", "xz", "yz"])
     @pytest.mark.parametrize("surface", [torus(n=36), blob(subdivisions=3)])
-    def test_a_surface_fills_the_room_and_no_more(self, preset, surface):
+    def test_a_surface_fills_the_room_and_no_more(self, preset: str, surface: TriSurface) -> None:
         self.check_fit(preset, surface)
 
     @pytest.mark.parametrize("preset", ["auto", "iso", "xy"])
-    def test_so_does_a_plane(self, preset):
+    def test_so_does_a_plane(self, preset: str) -> None:
         self.check_fit(preset, annulus(n=48))
 
     @pytest.mark.parametrize("preset", ["iso", "xy"])
-    def test_so_does_a_surface_far_from_the_origin(self, preset):
+    def test_so_does_a_surface_far_from_the_origin(self, preset: str) -> None:
         ball = blob(subdivisions=3)
         self.check_fit(preset, TriSurface(ball.vertices + [3e3, -1e3, 2e3], ball.faces))
 
-    def check_fit(self, preset, surface):
+    def check_fit(self, preset: str, surface: TriSurface) -> None:
         seen = pixels(camera_for(preset, triangles(surface), ROOM), surface.vertices)
         gaps = np.r_[seen.min(0) - [20, 60], [800 - 120, 600 - 40] - seen.max(0)]
         assert gaps.min() > -0.5
@@ -112,19 +113,19 @@ class TestCamera:
         assert abs(gaps[0] - gaps[2]) < 1.0
         assert abs(gaps[1] - gaps[3]) < 1.0
 
-    def test_planar_surfaces_are_seen_from_straight_above(self):
+    def test_planar_surfaces_are_seen_from_straight_above(self) -> None:
         camera = camera_for("auto", triangles(annulus(n=48)), ROOM)
         towards = np.subtract(camera.position, camera.focus)
         assert np.allclose(towards / np.linalg.norm(towards), [0.0, 0.0, 1.0])
         assert camera.parallel_scale is not None
 
-    def test_nine_numbers_are_taken_as_they_are(self):
+    def test_nine_numbers_are_taken_as_they_are(self) -> None:
         camera = camera_for("1,2,3, 0,0,0, 0,0,1", triangles(torus(n=24)), ROOM)
         assert camera.position == (1.0, 2.0, 3.0)
         assert camera.up == (0.0, 0.0, 1.0)
 
     @pytest.mark.parametrize("text", ["front", "1,2,3", "1,2,3,0,0,0,0,0,nan", "0,0,1,0,0,0,0,0,2"])
-    def test_other_words_are_refused_in_one_line(self, text):
+    def test_other_words_are_refused_in_one_line(self, text: str) -> None:
         with pytest.raises(CrossviewError) as caught:
             camera_for(text, triangles(torus(n=24)), ROOM)
         assert "\n" not in str(caught.value)

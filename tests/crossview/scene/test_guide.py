@@ -7,6 +7,7 @@ import numpy as np
 from crossview.scene import GuideLine, SceneView, layers_named
 from crossview.view.colors import condition_color
 from solvers.primitives import square
+from tests.crossview.scene.stage import Near, Stage
 
 PLATE = square(16)
 
@@ -19,7 +20,7 @@ def straight(y: float, condition: int, strong: bool) -> GuideLine:
     return GuideLine(segments, condition_color(condition), strong)
 
 
-def test_lines_have_the_colours_of_their_conditions_and_go(stage, near) -> None:
+def test_lines_have_the_colours_of_their_conditions_and_go(stage: Stage, near: Near) -> None:
     lines = (straight(0.2, 0, True), straight(0.0, 1, True), straight(-0.2, 2, False))
     layers = layers_named(("surface", "guide"))
     view = SceneView(PLATE.vertices, PLATE.faces, guide=lines, layers=layers)
@@ -37,7 +38,7 @@ def test_lines_have_the_colours_of_their_conditions_and_go(stage, near) -> None:
     assert near(stage.pixels(), condition_color(1)).sum() == 0
 
 
-def test_a_loop_is_drawn_in_the_colour_of_its_condition(stage, near) -> None:
+def test_a_loop_is_drawn_in_the_colour_of_its_condition(stage: Stage, near: Near) -> None:
     loop = np.arange(17)
     view = SceneView(PLATE.vertices, PLATE.faces, loop=loop, loop_color=condition_color(3))
     stage.scene.show(view)

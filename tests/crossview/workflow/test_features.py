@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,6 +16,7 @@ from crossview.workflow.pipeline import solve_case
 from crossview.workflow.problem import Problem
 from solvers.primitives import BUILTIN
 from solvers.progress import run
+from tests.command_line import CaseFile, Crossview
 
 RING = tuple(
     (float(np.cos(a)), float(np.sin(a)), 0.0)
@@ -20,17 +24,17 @@ RING = tuple(
 )
 
 
-def cylinder(**features) -> Case:
+def cylinder(**features: Any) -> Case:
     return Case(Builtin("cylinder", {"n": 32}), features=PlacedFeatures(**features))
 
 
-def test_a_case_keeps_its_features(tmp_path):
+def test_a_case_keeps_its_features(tmp_path: Path) -> None:
     case = cylinder(dihedral_degrees=40.0, curves=(RING,), without=(RING[:2],))
     case.save(tmp_path / "case.json")
     assert Case.load(tmp_path / "case.json") == case
 
 
-def test_a_curve_runs_along_edges_through_the_vertices_nearest_to_its_points():
+def test_a_curve_runs_along_edges_through_the_vertices_nearest_to_its_points() -> None:
     problem = Problem.from_case(cylinder(curves=(RING,)))
     (curve,) = problem.features.curves
     assert curve.closed
@@ -38,7 +42,7 @@ def test_a_curve_runs_along_edges_through_the_vertices_nearest_to_its_points():
     assert problem.surface.vertices[curve.vertices][:, 2] == pytest.approx(np.zeros(33), abs=1e-9)
 
 
-def test_what_was_marked_by_hand_is_saved_and_found_again(tmp_path):
+def test_what_was_marked_by_hand_is_saved_and_found_again(tmp_path: Path) -> None:
     surface = BUILTIN["cylinder"](n=32)
     some = frozenset(np.flatnonzero(surface.edge_faces[:, 1] >= 0)[3:40:4].tolist())
     problem = Problem(surface, marking=Marking(5.0, unmarked=some))
@@ -49,7 +53,7 @@ def test_what_was_marked_by_hand_is_saved_and_found_again(tmp_path):
     assert again.features.edges.tolist() == problem.features.edges.tolist()
 
 
-def test_marking_twice_takes_the_mark_away():
+def test_marking_twice_takes_the_mark_away() -> None:
     surface = BUILTIN["cylinder"](n=32)
     ring = np.array(sorted(Problem.from_case(cylinder(curves=(RING,))).marking.marked))
     for start in (Marking(), Marking(5.0)):
@@ -69,13 +73,17 @@ def test_marking_twice_takes_the_mark_away():
         ({"sharp": 40}, 'unknown key "sharp"'),
     ],
 )
-def test_wrong_features_are_told_with_their_place(crossview, case_file, features, told):
+def test_wrong_features_are_told_with_their_place(
+    crossview: Crossview, case_file: CaseFile, features: dict[str, Any], told: str
+) -> None:
     ran = crossview("solve", case_file("cylinder", features=features), "-o", "nowhere")
     assert ran.status == 2
     assert told in ran.err
 
 
-def test_a_curve_far_away_is_refused(crossview, case_file, tmp_path):
+def test_a_curve_far_away_is_refused(
+    crossview: Crossview, case_file: CaseFile, tmp_path: Path
+) -> None:
     far = {"curves": [[[9, 0, 0], [0, 9, 0]]]}
     ran = crossview("solve", case_file("cylinder", features=far), "-o", tmp_path / "out")
     assert ran.status == 2
@@ -91,7 +99,9 @@ OFF = [
 
 
 @pytest.mark.parametrize("method", ["isotropic", "aligned", "anisotropic"])
-def test_the_report_tells_the_misalignment_of_each_curve(crossview, case_file, tmp_path, method):
+def test_the_report_tells_the_misalignment_of_each_curve(
+    crossview: Crossview, case_file: CaseFile, tmp_path: Path, method: str
+) -> None:
     path = case_file("cylinder", OFF, features={"curves": [RING]}, options={"verify": True})
     ran = crossview("solve", path, "-o", tmp_path / "out", "--method", method, "--json")
     assert ran.status == 0, ran.err
@@ -110,7 +120,7 @@ def test_the_report_tells_the_misalignment_of_each_curve(crossview, case_file, t
     assert (tmp_path / "out" / "features.vtp").is_file()
 
 
-def test_valid_but_off_a_curve_is_not_valid():
+def test_valid_but_off_a_curve_is_not_valid() -> None:
     # no singularity: the field runs around; an edge along a diagonal of the cells is not followed
     surface = BUILTIN["cylinder"](n=32)
     ends = surface.vertices[surface.edges]
@@ -124,7 +134,9 @@ def test_valid_but_off_a_curve_is_not_valid():
     assert "feature" in solution.verdict.reason
 
 
-def test_sharp_edges_can_be_asked_for_on_the_command_line(crossview, real_surface, tmp_path):
+def test_sharp_edges_can_be_asked_for_on_the_command_line(
+    crossview: Crossview, real_surface: Callable[[str], Path], tmp_path: Path
+) -> None:
     surface = real_surface("wingnut.obj")
     new = tmp_path / "wingnut.json"
     ran = crossview("natural", surface, "-o", new, "--features", 40)
@@ -138,15 +150,15 @@ def test_sharp_edges_can_be_asked_for_on_the_command_line(crossview, real_surfac
 
 
 def test_the_option_replaces_the_angle_of_the_case_and_keeps_its_curves(
-    crossview, case_file, tmp_path
-):
+    crossview: Crossview, case_file: CaseFile, tmp_path: Path
+) -> None:
     path = case_file("cylinder", features={"curves": [RING], "dihedral_degrees": 2})
     ran = crossview("solve", path, "-o", tmp_path / "out", "--features", 170, "--json")
     assert ran.status == 0, ran.err
     assert len(ran.json["features"]) == 1
 
 
-def test_natural_by_curvature(crossview, tmp_path):
+def test_natural_by_curvature(crossview: Crossview, tmp_path: Path) -> None:
     new = tmp_path / "case.json"
     arguments = ("natural", "ellipsoid", "-o", new, "--alignment", "curvature")
     assert crossview(*arguments).status == 0
@@ -156,7 +168,9 @@ def test_natural_by_curvature(crossview, tmp_path):
     assert "smoothness, curvature" in ran.err
 
 
-def test_the_torus_of_the_gallery_misses_its_marked_curve(crossview, tmp_path):
+def test_the_torus_of_the_gallery_misses_its_marked_curve(
+    crossview: Crossview, tmp_path: Path
+) -> None:
     ran = crossview("solve", "torus-35", "-o", tmp_path / "out", "--json")
     (curve,) = ran.json["features"]
     assert curve["closed"]

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -15,26 +17,28 @@ from crossview.workflow.pipeline import Pipeline, Solution, solve_case
 from crossview.workflow.problem import Problem
 from crossview.workflow.sizes import refined_sizes
 from solvers.errors import CrossviewError
+from solvers.fields.crossfield import CrossField
 from solvers.fields.integrable import FieldStep
 from solvers.primitives import BUILTIN
 from solvers.progress import run
 from solvers.surface.refinement import refine_at
+from tests.command_line import CaseFile, Crossview, Ran
 
 ANNULUS = {"builtin": "annulus", "n": 48}
 OPTIONS = Options(refine=0)
 
 
-def around(degrees, radius):
+def around(degrees: float, radius: float) -> tuple[float, float, float]:
     return (radius * np.cos(np.radians(degrees)), radius * np.sin(np.radians(degrees)), 0.0)
 
 
-def placed(off):
+def placed(off: float) -> list[tuple[tuple[float, float, float], int]]:
     """Four valence 3, and as many valence 5 each turned by `off` degrees from the valence 3."""
     pairs = [(around(90 * i, 0.8), 3) for i in range(4)]
     return pairs + [(around(90 * i + off, 0.6), 5) for i in range(4)]
 
 
-def annulus(method, off=12, options=OPTIONS):
+def annulus(method: str, off: float = 12, options: Options = OPTIONS) -> Case:
     """Holonomy defect: as many degrees as `off`, up to quarter turns."""
     singularities = tuple(PlacedSingularity(p, v) for p, v in placed(off))
     return Case(Builtin("annulus", {"n": 48}), singularities, None, method, options)
@@ -50,7 +54,7 @@ def anisotropic() -> Solution:
     return solved(annulus("anisotropic"))
 
 
-def test_aligned_is_aligned_and_suspect():
+def test_aligned_is_aligned_and_suspect() -> None:
     solution = solved(annulus("aligned"))
     told = report(solution)
     assert np.abs(told["boundary_misalignment_degrees"]).max() < np.degrees(1e-9)
@@ -60,7 +64,7 @@ def test_aligned_is_aligned_and_suspect():
     assert "not integrable" in told["verdict_reason"]
 
 
-def test_anisotropic_is_aligned_and_integrable(anisotropic):
+def test_anisotropic_is_aligned_and_integrable(anisotropic: Solution) -> None:
     told = report(anisotropic)
     assert np.abs(told["boundary_misalignment_degrees"]).max() < np.degrees(1e-9)
     assert told["energy_initial"] == pytest.approx(solved(annulus("aligned")).field.energy)
@@ -75,7 +79,7 @@ def test_anisotropic_is_aligned_and_integrable(anisotropic):
 
 
 @pytest.mark.parametrize("method", ["isotropic", "aligned", "anisotropic"])
-def test_the_report_tells_the_isotropic_defects_whatever_the_method(method):
+def test_the_report_tells_the_isotropic_defects_whatever_the_method(method: str) -> None:
     told = report(solved(annulus(method)))
     (condition,) = told["holonomy"]
     assert abs(condition["defect_degrees"]) == pytest.approx(12, abs=0.05)
@@ -83,14 +87,16 @@ def test_the_report_tells_the_isotropic_defects_whatever_the_method(method):
     assert told["method"] == method
 
 
-def test_isotropic_has_no_error_but_is_not_aligned():
+def test_isotropic_has_no_error_but_is_not_aligned() -> None:
     told = report(solved(annulus("isotropic")))
     assert (told["energy_final"], told["max_log_aspect"], told["flips"]) == (0, 0, None)
     assert told["verdict"] == "impossible"
     assert "12 degrees" in told["verdict_reason"]
 
 
-def test_the_paper_alternation_that_stalls_is_told_and_no_crash(crossview, tmp_path, case_file):
+def test_the_paper_alternation_that_stalls_is_told_and_no_crash(
+    crossview: Crossview, tmp_path: Path, case_file: CaseFile
+) -> None:
     path = case_file(ANNULUS, placed(37), method="alternating", options={"refine": 0})
     ran = crossview("solve", path, "-o", tmp_path / "out")
     assert ran.status == 0
@@ -102,7 +108,7 @@ def test_the_paper_alternation_that_stalls_is_told_and_no_crash(crossview, tmp_p
     assert "not converged" in ran.out
 
 
-def test_the_proximal_weight_is_the_cases():
+def test_the_proximal_weight_is_the_cases() -> None:
     paper, light = (
         solved(annulus("alternating", options=replace(OPTIONS, proximal_weight=w)))
         for w in (1.0, 1e-3)
@@ -110,14 +116,16 @@ def test_the_proximal_weight_is_the_cases():
     assert light.field.energy < 0.6 * paper.field.energy
 
 
-def test_the_summary_says_method_energy_steps_and_verdict(anisotropic):
+def test_the_summary_says_method_energy_steps_and_verdict(anisotropic: Solution) -> None:
     steps = len(anisotropic.field.convergence.energies) - 1
     assert summary(anisotropic).startswith("valid: anisotropic, index 0 of 0, E 0.")
     assert f", {steps} steps" in summary(anisotropic)
     assert "\n" not in summary(anisotropic)
 
 
-def test_paraview_finds_sizes_and_errors(crossview, tmp_path, case_file):
+def test_paraview_finds_sizes_and_errors(
+    crossview: Crossview, tmp_path: Path, case_file: CaseFile
+) -> None:
     path = case_file(ANNULUS, placed(12), method="isotropic", options={"refine": 0})
     for method in ("aligned", "anisotropic"):
         out = tmp_path / method
@@ -138,13 +146,13 @@ def test_paraview_finds_sizes_and_errors(crossview, tmp_path, case_file):
         assert np.allclose(np.log(ratio), cells["H2"] - cells["H1"], atol=1e-6)
 
 
-def test_other_turns_are_another_layout():
+def test_other_turns_are_another_layout() -> None:
     one = solved(annulus("anisotropic", options=replace(OPTIONS, turns=(-1,))))
     assert one.field.convergence.energies[0] > 1
     assert np.abs(one.field.boundary_misalignment).max() < 1e-9
 
 
-def test_verify_solves_on_a_refined_mesh_and_tells_the_growth():
+def test_verify_solves_on_a_refined_mesh_and_tells_the_growth() -> None:
     options = replace(OPTIONS, verify=True)
     possible = solved(annulus("anisotropic", options=options))
     assert 0.9 < possible.growth < 1.2
@@ -157,7 +165,9 @@ def test_verify_solves_on_a_refined_mesh_and_tells_the_growth():
     assert forced.verdict.status == "impossible"
 
 
-def test_verify_and_turns_around_handles_are_refused(crossview, tmp_path, case_file):
+def test_verify_and_turns_around_handles_are_refused(
+    crossview: Crossview, tmp_path: Path, case_file: CaseFile
+) -> None:
     torus = [((1.4, 0, 0), 3), ((0, 0.75, 0.31), 3), ((-1.4, 0, 0), 5), ((0, -0.75, 0.31), 5)]
     options = {"refine": 0, "verify": True, "turns": [1, 0]}
     path = case_file({"builtin": "torus", "n": 24}, torus, method="anisotropic", options=options)
@@ -166,7 +176,7 @@ def test_verify_and_turns_around_handles_are_refused(crossview, tmp_path, case_f
     assert "verify cannot follow turns" in ran.err
 
 
-def test_verify_keeps_the_layout_where_the_defect_is_next_to_45_degrees():
+def test_verify_keeps_the_layout_where_the_defect_is_next_to_45_degrees() -> None:
     options = replace(OPTIONS, verify=True)
     assert solved(annulus("anisotropic", 44.99, options)).growth < 1.5
 
@@ -174,7 +184,14 @@ def test_verify_keeps_the_layout_where_the_defect_is_next_to_45_degrees():
 class TestSizes:
     """A size map belongs to the vertices of the surface given."""
 
-    def square(self, sizes, tmp_path, crossview, case_file, **more):
+    def square(
+        self,
+        sizes: object,
+        tmp_path: Path,
+        crossview: Crossview,
+        case_file: CaseFile,
+        **more: object,
+    ) -> Ran:
         path = case_file(
             {"builtin": "square", "n": 8},
             method="anisotropic",
@@ -182,7 +199,9 @@ class TestSizes:
         )
         return crossview("solve", path, "-o", tmp_path / "out")
 
-    def test_numbers_pairs_and_files_say_the_same(self, tmp_path, crossview, case_file):
+    def test_numbers_pairs_and_files_say_the_same(
+        self, tmp_path: Path, crossview: Crossview, case_file: CaseFile
+    ) -> None:
         x, y, _ = BUILTIN["square"](n=8).vertices.T
         sizes = np.exp(np.stack([0.5 * x, 0.3 * y], axis=1))
         np.save(tmp_path / "sizes.npy", sizes)
@@ -209,7 +228,9 @@ class TestSizes:
             (np.array([None] * 81), "not an array of numbers"),
         ],
     )
-    def test_a_wrong_map_is_refused(self, content, said, tmp_path, crossview, case_file):
+    def test_a_wrong_map_is_refused(
+        self, content: object, said: str, tmp_path: Path, crossview: Crossview, case_file: CaseFile
+    ) -> None:
         np.save(tmp_path / "sizes.npy", content, allow_pickle=True)
         ran = self.square("sizes.npy", tmp_path, crossview, case_file)
         assert ran.status == 2
@@ -222,14 +243,21 @@ class TestSizes:
         ("content", "said"),
         [(None, "cannot read"), (b"one two", "not an array"), (b"", "0 values for 81")],
     )
-    def test_a_file_that_is_none_is_refused(self, content, said, tmp_path, crossview, case_file):
+    def test_a_file_that_is_none_is_refused(
+        self,
+        content: bytes | None,
+        said: str,
+        tmp_path: Path,
+        crossview: Crossview,
+        case_file: CaseFile,
+    ) -> None:
         if content is not None:
             (tmp_path / "sizes.txt").write_bytes(content)
         ran = self.square("sizes.txt", tmp_path, crossview, case_file)
         assert ran.status == 2
         assert said in ran.err
 
-    def test_logarithms_are_linear_in_the_triangles_refined(self):
+    def test_logarithms_are_linear_in_the_triangles_refined(self) -> None:
         surface = BUILTIN["square"](n=8)
         point = surface.closest_point(np.array([0.1, 0.07, 0.0]))
         refinement = refine_at(surface, [point], 3)
@@ -238,7 +266,7 @@ class TestSizes:
         assert np.allclose(refined_sizes(sizes, refinement), wanted)
         assert np.allclose(refined_sizes(sizes[:, 0], refinement), wanted[:, 0])
 
-    def test_a_size_map_leads_the_sizes_between_singularities(self):
+    def test_a_size_map_leads_the_sizes_between_singularities(self) -> None:
         options = replace(OPTIONS, refine=1)
         case = annulus("anisotropic", options=options)
         problem = Problem.from_case(case)
@@ -248,14 +276,14 @@ class TestSizes:
         field = run(Pipeline().solve(replace(problem, options=led))).field
         assert field.energy < 1e-10
 
-        def likeness(found):
+        def likeness(found: CrossField) -> float:
             return np.corrcoef(found.H, found.surface.vertices[:, 0])[0, 1]
 
         assert likeness(field) > likeness(plain) + 0.1
 
 
 class TestPipeline:
-    def test_switching_methods_keeps_every_result(self):
+    def test_switching_methods_keeps_every_result(self) -> None:
         problem = Problem.from_case(annulus("isotropic"))
         pipeline = Pipeline()
         methods = ("isotropic", "aligned", "anisotropic")
@@ -275,7 +303,7 @@ class TestPipeline:
             {"options": replace(OPTIONS, turns=(1,))},
         ],
     )
-    def test_no_result_outlives_its_problem(self, change):
+    def test_no_result_outlives_its_problem(self, change: dict[str, Any]) -> None:
         problem = Problem.from_case(annulus("aligned"))
         pipeline = Pipeline()
         first = run(pipeline.solve(problem))
@@ -290,7 +318,7 @@ class TestPipeline:
         assert second.refinement is first.refinement
         assert run(pipeline.solve(problem)).field is not first.field
 
-    def test_a_size_map_that_changed_on_disk_is_solved_again(self, tmp_path):
+    def test_a_size_map_that_changed_on_disk_is_solved_again(self, tmp_path: Path) -> None:
         name = str(tmp_path / "sizes.npy")
         options = replace(OPTIONS, sizes=name)
         problem = replace(Problem.from_case(annulus("anisotropic")), options=options)
@@ -303,7 +331,7 @@ class TestPipeline:
         assert found[0] is found[1]
         assert found[1] is not found[2]
 
-    def test_every_iteration_is_shown_and_the_last_can_be_kept(self):
+    def test_every_iteration_is_shown_and_the_last_can_be_kept(self) -> None:
         pipeline = Pipeline()
         steps = []
         running = pipeline.solve(Problem.from_case(annulus("anisotropic", 37)))
@@ -321,10 +349,10 @@ class TestPipeline:
         fractions = [step.fraction for step in steps]
         assert fractions == sorted(fractions)
 
-    def test_nothing_can_be_kept_of_nothing(self):
+    def test_nothing_can_be_kept_of_nothing(self) -> None:
         with pytest.raises(CrossviewError, match="nothing has been solved"):
             Pipeline().so_far(FieldStep("", 0.0, (), None))
 
-    def test_wrong_turns_are_told(self):
+    def test_wrong_turns_are_told(self) -> None:
         with pytest.raises(CrossviewError, match="2 turns are given for 1 holonomy conditions"):
             solved(annulus("aligned", options=replace(OPTIONS, turns=(0, 1))))

@@ -16,7 +16,7 @@ from solvers.progress import run
 from solvers.singularities.budget import Singularity
 
 
-def annulus(*valences, refine=1):
+def annulus(*valences: int, refine: int = 1) -> Case:
     """An annulus with singularities of these valences, evenly around."""
     angles = np.arange(len(valences)) * 2 * np.pi / len(valences)
     placed = [
@@ -26,12 +26,12 @@ def annulus(*valences, refine=1):
     return Case(Builtin("annulus"), tuple(placed), options=Options(refine=refine))
 
 
-def with_valences(problem, *valences):
+def with_valences(problem: Problem, *valences: int) -> Problem:
     changed = zip(problem.singularities, valences, strict=True)
     return replace(problem, singularities=tuple(replace(s, valence=v) for s, v in changed))
 
 
-def test_changing_a_valence_keeps_the_factor_and_gives_the_fresh_answer():
+def test_changing_a_valence_keeps_the_factor_and_gives_the_fresh_answer() -> None:
     problem = Problem.from_case(annulus(3, 5, 3, 5))
     other = with_valences(problem, 2, 5, 5, 4)
     pipeline = Pipeline()
@@ -46,7 +46,7 @@ def test_changing_a_valence_keeps_the_factor_and_gives_the_fresh_answer():
 
 
 @pytest.mark.parametrize("change", ["place", "refine", "corners", "surface"])
-def test_other_changes_start_afresh(change):
+def test_other_changes_start_afresh(change: str) -> None:
     problem = Problem.from_case(annulus(3, 5))
     moved = problem.surface.point_at_vertex(int(problem.surface.faces[2000, 0]))
     assert not problem.surface.boundary_vertices[problem.surface.faces[2000, 0]]
@@ -65,7 +65,7 @@ def test_other_changes_start_afresh(change):
     assert np.abs(second.field.H - fresh.field.H).max() < 1e-12
 
 
-def test_singularities_become_vertices_where_they_were_placed():
+def test_singularities_become_vertices_where_they_were_placed() -> None:
     solution = run(Pipeline().solve(Problem.from_case(annulus(3, 5, 3, 5))))
     before = solution.problem.surface.positions([s.point for s in solution.problem.singularities])
     after = solution.surface.positions([s.point for s in solution.singularities])
@@ -73,7 +73,7 @@ def test_singularities_become_vertices_where_they_were_placed():
     assert all(max(s.point.barycentric) == 1 for s in solution.singularities)
 
 
-def test_a_missed_budget_is_told_before_anything_is_computed():
+def test_a_missed_budget_is_told_before_anything_is_computed() -> None:
     problem = Problem.from_case(annulus(3, 3))
     steps = []
     with pytest.raises(SingularityError, match=r"2 of 0: add 2 valence 5 or .* or make #1"):
@@ -81,7 +81,7 @@ def test_a_missed_budget_is_told_before_anything_is_computed():
     assert steps == []
 
 
-def test_progress_grows_and_names_its_stages():
+def test_progress_grows_and_names_its_stages() -> None:
     steps = []
     (solution,) = run(solve_case(annulus(3, 5)), steps.append)
     fractions = [step.fraction for step in steps]
@@ -90,7 +90,7 @@ def test_progress_grows_and_names_its_stages():
     assert list(solution.seconds) == ["read", "refine", "factor", "solve", "holonomy", "verdict"]
 
 
-def test_a_problem_becomes_the_case_it_came_from():
+def test_a_problem_becomes_the_case_it_came_from() -> None:
     corner = PlacedCorner((1.0, 0.0, 0.0), 1)
     case = replace(annulus(3, 5, 6), corners=(corner,), title="three")
     locked = tuple(replace(s, locked=True) for s in case.singularities)
@@ -107,7 +107,7 @@ def test_a_problem_becomes_the_case_it_came_from():
     assert np.allclose(again.corners[0].position, corner.position)
 
 
-def test_all_components_are_no_single_problem():
+def test_all_components_are_no_single_problem() -> None:
     case = replace(annulus(), options=Options(component="all"))
     with pytest.raises(CaseError, match="one is wanted"):
         Problem.from_case(case)

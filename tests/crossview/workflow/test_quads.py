@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from itertools import product
 from math import sqrt
+from pathlib import Path
+from typing import Any
 
 import meshio
 import numpy as np
 import pytest
 import pyvista as pv
+from numpy.typing import NDArray
 from PIL import Image
 
 from crossview.workflow.quads import MeshOptions
 from solvers.errors import CrossviewError
 from solvers.primitives import BUILTIN
+from tests.command_line import CaseFile, Crossview, refused
 
 CUBE = [(tuple(s / sqrt(3) for s in signs), 3) for signs in product((-1, 1), repeat=3)]
 ALWAYS = {
@@ -29,10 +34,12 @@ QUADS = {"layout.vtp", "quads.vtk", "quads.obj"}
 
 
 @pytest.fixture
-def meshed(crossview, tmp_path, case_file):
+def meshed(crossview: Crossview, tmp_path: Path, case_file: CaseFile) -> Callable[..., Any]:
     """Mesh a case by command; return its report."""
 
-    def mesh(surface, singularities=(), *arguments, **more):
+    def mesh(
+        surface: object, singularities: object = (), *arguments: object, **more: object
+    ) -> Any:
         path = case_file(surface, singularities, **more)
         ran = crossview("solve", path, "-o", tmp_path / "out", "--quads", *arguments)
         assert ran.status == 0, ran.err
@@ -42,7 +49,9 @@ def meshed(crossview, tmp_path, case_file):
     return mesh
 
 
-def test_the_cubes_eight_give_the_cubes_six_patches(meshed, tmp_path):
+def test_the_cubes_eight_give_the_cubes_six_patches(
+    meshed: Callable[..., Any], tmp_path: Path
+) -> None:
     report = meshed({"builtin": "cube_sphere", "n": 16}, CUBE, "--target-quads", 600)
     layout, quads = report["layout"], report["quads"]
     assert (layout["patches"], layout["separatrices"], layout["conforming"]) == (6, 12, True)
@@ -71,7 +80,7 @@ def test_the_cubes_eight_give_the_cubes_six_patches(meshed, tmp_path):
         assert len(written.points) == 602
 
 
-def test_a_square_is_a_grid(meshed):
+def test_a_square_is_a_grid(meshed: Callable[..., Any]) -> None:
     report = meshed("square", (), "--edge-length", 0.1)
     quads = report["quads"]
     assert (quads["quads"], quads["vertices"]) == (100, 121)
@@ -81,7 +90,9 @@ def test_a_square_is_a_grid(meshed):
 
 
 @pytest.mark.parametrize(("name", "chi"), [("torus", 0), ("annulus", 0), ("cylinder", 0)])
-def test_surfaces_without_singularities_have_regular_meshes(meshed, name, chi):
+def test_surfaces_without_singularities_have_regular_meshes(
+    meshed: Callable[..., Any], name: str, chi: int
+) -> None:
     report = meshed(name, (), "--target-quads", 1500)
     assert report["layout"]["separatrices"] == 0
     assert report["layout"]["conforming"]
@@ -92,7 +103,7 @@ def test_surfaces_without_singularities_have_regular_meshes(meshed, name, chi):
     assert abs(quads["quads"] - 1500) < 150
 
 
-def test_the_formats_of_the_quads_may_be_chosen(crossview, tmp_path):
+def test_the_formats_of_the_quads_may_be_chosen(crossview: Crossview, tmp_path: Path) -> None:
     asked = ["solve", "square", "-o", tmp_path, "--quads", "--target-quads", "9"]
     assert crossview(*asked, "--formats", "msh,GLB, ply").status == 0
     written = {p.suffix for p in tmp_path.iterdir() if p.stem == "quads"}
@@ -100,13 +111,15 @@ def test_the_formats_of_the_quads_may_be_chosen(crossview, tmp_path):
     assert meshio.gmsh.read(tmp_path / "quads.msh").field_data["boundary 1"].tolist() == [1, 1]
 
 
-def test_the_edge_length_is_that_on_the_surface(meshed):
+def test_the_edge_length_is_that_on_the_surface(meshed: Callable[..., Any]) -> None:
     surface = BUILTIN["annulus"]()
     report = meshed("annulus", (), "--edge-length", 0.05, "--quiet")
     assert report["quads"]["quads"] == pytest.approx(surface.area / 0.05**2, rel=0.1)
 
 
-def test_a_coarse_mesh_of_fewer_patches_keeps_its_singularities(crossview, tmp_path):
+def test_a_coarse_mesh_of_fewer_patches_keeps_its_singularities(
+    crossview: Crossview, tmp_path: Path
+) -> None:
     asked = [
         "solve",
         "closed-H",
@@ -128,7 +141,9 @@ def test_a_coarse_mesh_of_fewer_patches_keeps_its_singularities(crossview, tmp_p
 
 
 @pytest.mark.parametrize("name", ["sphere-cube", "sphere-anticube"])
-def test_crosses_and_separatrices_are_written_as_they_fit(crossview, tmp_path, name):
+def test_crosses_and_separatrices_are_written_as_they_fit(
+    crossview: Crossview, tmp_path: Path, name: str
+) -> None:
     """Nothing fixes the crosses' direction on a closed surface but what joins singularities."""
     out = tmp_path / "out"
     assert crossview("solve", name, "-o", out).status == 0
@@ -145,7 +160,7 @@ def test_crosses_and_separatrices_are_written_as_they_fit(crossview, tmp_path, n
         assert np.degrees(np.arccos(min(along, 1.0))) < 2
 
 
-def test_sharp_edges_are_edges_of_quads(crossview, tmp_path):
+def test_sharp_edges_are_edges_of_quads(crossview: Crossview, tmp_path: Path) -> None:
     """A box: vertices slide along its edges and never over them."""
     box = pv.Box(level=9).triangulate().clean()
     box.save(tmp_path / "box.ply")
@@ -158,7 +173,9 @@ def test_sharp_edges_are_edges_of_quads(crossview, tmp_path):
     assert mesh.area == pytest.approx(box.area)  # no corner is cut off
 
 
-def test_quads_along_very_sharp_edges_are_not_taken_for_turned_over(crossview, tmp_path, case_file):
+def test_quads_along_very_sharp_edges_are_not_taken_for_turned_over(
+    crossview: Crossview, tmp_path: Path, case_file: CaseFile
+) -> None:
     corners = np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]) / sqrt(3)
     triangles = corners[[[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]]
     for _ in range(3):
@@ -178,14 +195,18 @@ def test_quads_along_very_sharp_edges_are_not_taken_for_turned_over(crossview, t
     assert quads["min_scaled_jacobian"] > 0.7
 
 
-def test_features_that_are_missed_are_told(crossview, tmp_path, case_file):
+def test_features_that_are_missed_are_told(
+    crossview: Crossview, tmp_path: Path, case_file: CaseFile
+) -> None:
     diagonal = [[[-0.25, -0.25, 0], [0.25, 0.25, 0]]]
     path = case_file("square", features={"curves": diagonal})
     ran = crossview("solve", path, "-o", tmp_path / "out", "--quads")
     refused(ran, tmp_path, "misses a feature curve, by up to 45 degrees", "anisotropic")
 
 
-def test_without_quads_the_separatrices_are_told_all_the_same(crossview, tmp_path):
+def test_without_quads_the_separatrices_are_told_all_the_same(
+    crossview: Crossview, tmp_path: Path
+) -> None:
     assert crossview("solve", "suboptimal-a", "-o", tmp_path / "out").status == 0
     report = json.loads((tmp_path / "out" / "report.json").read_text())
     layout = report["layout"]
@@ -211,12 +232,16 @@ def test_without_quads_the_separatrices_are_told_all_the_same(crossview, tmp_pat
         ("torus-35", ["No quadrangulation of a torus"]),
     ],
 )
-def test_fields_that_have_no_quads_are_refused(crossview, tmp_path, case, said):
+def test_fields_that_have_no_quads_are_refused(
+    crossview: Crossview, tmp_path: Path, case: str | Path, said: list[str]
+) -> None:
     ran = crossview("solve", case, "-o", tmp_path / "out", "--quads")
     refused(ran, tmp_path, *said)
 
 
-def test_an_isotropic_field_that_misses_a_handle_is_refused(crossview, tmp_path, case_file):
+def test_an_isotropic_field_that_misses_a_handle_is_refused(
+    crossview: Crossview, tmp_path: Path, case_file: CaseFile
+) -> None:
     path = case_file(
         "torus", [((1.4, 0, 0), 3), ((-1.4, 0, 0), 3), ((0, 1.4, 0), 5), ((0, 0.6, 0), 5)]
     )
@@ -224,13 +249,17 @@ def test_an_isotropic_field_that_misses_a_handle_is_refused(crossview, tmp_path,
     refused(ran, tmp_path, "holonomy defect", "anisotropic")
 
 
-def test_no_quads_are_tried_around_a_valence_1(crossview, tmp_path, case_file):
+def test_no_quads_are_tried_around_a_valence_1(
+    crossview: Crossview, tmp_path: Path, case_file: CaseFile
+) -> None:
     path = case_file({"builtin": "disk", "edge_length": 0.1}, [((0, 0, 0), 1), ((0.5, 0, 0), 3)])
     ran = crossview("solve", path, "-o", tmp_path / "out", "--quads")
     refused(ran, tmp_path, "no quad closes around a valence 1 (singularity 1)", "valence 2 or more")
 
 
-def test_quads_at_a_valence_2_are_flat_not_too_few(crossview, tmp_path, case_file):
+def test_quads_at_a_valence_2_are_flat_not_too_few(
+    crossview: Crossview, tmp_path: Path, case_file: CaseFile
+) -> None:
     two = [((-0.3, 0, 0), 2), ((0.4, 0, 0), 2)]
     path = case_file({"builtin": "disk", "edge_length": 0.1}, two)
     ran = crossview("solve", path, "-o", tmp_path / "out", "--quads", "--target-quads", 200)
@@ -239,7 +268,9 @@ def test_quads_at_a_valence_2_are_flat_not_too_few(crossview, tmp_path, case_fil
     assert "try more quads" not in ran.out
 
 
-def test_of_all_components_the_one_that_misses_its_budget_is_named(crossview, tmp_path):
+def test_of_all_components_the_one_that_misses_its_budget_is_named(
+    crossview: Crossview, tmp_path: Path
+) -> None:
     square, pentagon = BUILTIN["square"](n=16), BUILTIN["planar"](edge_length=0.3)
     points = np.concatenate([square.vertices, pentagon.vertices + [5, 0, 0]])
     faces = np.concatenate([square.faces, pentagon.faces + square.n_vertices])
@@ -272,32 +303,23 @@ def test_of_all_components_the_one_that_misses_its_budget_is_named(crossview, tm
         (["--quads", "--target-quads", "3000000"], "3e+06 quads are too many: at most 2,000,000"),
     ],
 )
-def test_wrong_options_are_refused(crossview, tmp_path, arguments, said):
+def test_wrong_options_are_refused(
+    crossview: Crossview, tmp_path: Path, arguments: list[str], said: str
+) -> None:
     refused(crossview("solve", "square", "-o", tmp_path / "out", *arguments), tmp_path, said)
 
 
-def test_options_are_checked_wherever_they_come_from():
+def test_options_are_checked_wherever_they_come_from() -> None:
     with pytest.raises(CrossviewError, match="give one of them"):
         MeshOptions(edge_length=0.1, target_quads=10)
     assert MeshOptions().number_on(BUILTIN["square"]()) == 5000
     assert MeshOptions(edge_length=0.25).number_on(BUILTIN["square"]()) == 16
 
 
-def refused(ran, tmp_path, *said):
-    """One line that says all of `said`; status 2; nothing written."""
-    assert ran.err.startswith("crossview: error: ")
-    assert ran.err.count("\n") == 1
-    for words in said:
-        assert words in ran.err
-    assert (ran.status, ran.out) == (2, "")
-    assert not (tmp_path / "out").exists()
-    assert not list(tmp_path.glob(".crossview-*"))
-
-
-def test_layouts_and_quads_are_drawn(crossview, tmp_path):
+def test_layouts_and_quads_are_drawn(crossview: Crossview, tmp_path: Path) -> None:
     small = ["--size", "300x225", "--camera", "xy"]
 
-    def drawn(name, *arguments):
+    def drawn(name: str, *arguments: object) -> NDArray[np.float64]:
         path = tmp_path / name
         ran = crossview("render", "disk-4", "-o", path, *small, *arguments)
         assert ran.status == 0, ran.err
@@ -313,7 +335,7 @@ def test_layouts_and_quads_are_drawn(crossview, tmp_path):
     assert len(colours) >= 5  # of five patches
 
 
-def test_what_cannot_be_drawn_is_told(crossview, tmp_path):
+def test_what_cannot_be_drawn_is_told(crossview: Crossview, tmp_path: Path) -> None:
     asked = ["render", "suboptimal-a", "-o", tmp_path / "out" / "a.png"]
     refused(crossview(*asked, "--layers", "quads"), tmp_path, "misses 2 boundaries")
     refused(crossview(*asked, "--layers", "layout"), tmp_path, "misses 2 boundaries")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ from crossview.cases.model import Case
 from crossview.workflow.problem import Problem
 from solvers.progress import run
 from solvers.singularities.placing import far_points
+from tests.command_line import Crossview
 
 # genus, boundary loops, required index sum
 REAL = {
@@ -52,7 +54,9 @@ def far_case(path: Path, method: str = "isotropic") -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("name", REAL)
-def test_a_real_surface_is_described_and_solved(crossview, real_surface, tmp_path, name):
+def test_a_real_surface_is_described_and_solved(
+    crossview: Crossview, real_surface: Callable[[str], Path], tmp_path: Path, name: str
+) -> None:
     genus, loops, required = REAL[name]
     path = real_surface(name)
     found = crossview("info", path, "--json").json
@@ -80,7 +84,13 @@ def test_a_real_surface_is_described_and_solved(crossview, real_surface, tmp_pat
         ("skull_low_resolution.obj", "anisotropic"),
     ],
 )
-def test_a_real_surface_has_quads(crossview, real_surface, tmp_path, name, method):
+def test_a_real_surface_has_quads(
+    crossview: Crossview,
+    real_surface: Callable[[str], Path],
+    tmp_path: Path,
+    name: str,
+    method: str,
+) -> None:
     case = far_case(real_surface(name), method)
     (tmp_path / "case.json").write_text(json.dumps(case))
     options = ["--quads", "--target-quads", "3000", "--json"]

@@ -1,13 +1,18 @@
 """Feature networks, and fields that follow them."""
 
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from crossview.cases.model import Case
 from crossview.workflow.problem import Problem
 from solvers.features.edges import Features, no_features
 from solvers.features.sharp_edges import sharp_edges
 from solvers.fields.aligned import IntegratedField, aligned_field
+from solvers.fields.crossfield import CrossField
 from solvers.fields.feature_alignment import nearest_integers
 from solvers.fields.integrable import anisotropic_field
 from solvers.fields.isotropic import IsotropicSolver
@@ -47,12 +52,14 @@ def length(features: Features) -> float:
     return float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum())
 
 
-def misalignment(field) -> float:
+def misalignment(field: CrossField) -> float:
     """The largest of any feature curve, degrees."""
     return float(np.degrees(np.abs(field.feature_misalignment).max(initial=0.0)))
 
 
-def solved(surface: TriSurface, features: Features, singularities, refine: int = 2):
+def solved(
+    surface: TriSurface, features: Features, singularities: Sequence[Singularity], refine: int = 2
+) -> tuple[IntegratedField, IntegratedField]:
     """The aligned and the anisotropic field, refined at the singularities."""
     places = [s.point for s in singularities]
     refinement = refine_at(surface, places, refine, features.edges)
@@ -63,7 +70,7 @@ def solved(surface: TriSurface, features: Features, singularities, refine: int =
     return IntegratedField(aligned, aligned.start), run(anisotropic_field(aligned))
 
 
-def test_a_cube_has_twelve_sharp_curves_between_eight_corners():
+def test_a_cube_has_twelve_sharp_curves_between_eight_corners() -> None:
     surface = cube()
     features = Features(surface, sharp_edges(surface, 40))
     assert len(features.curves) == 12
@@ -75,20 +82,20 @@ def test_a_cube_has_twelve_sharp_curves_between_eight_corners():
         assert (along == np.sort(features.ends[curve.members], axis=1)).all()
 
 
-def test_the_threshold_is_the_angle_between_normals():
+def test_the_threshold_is_the_angle_between_normals() -> None:
     surface = cube()
     assert len(sharp_edges(surface, 89.9)) == 12 * 8
     assert len(sharp_edges(surface, 90.1)) == 0
 
 
-def test_a_circle_is_one_closed_curve():
+def test_a_circle_is_one_closed_curve() -> None:
     surface = BUILTIN["cylinder"](n=32)
     (curve,) = circle(surface, 0.0).curves
     assert curve.closed
     assert len(curve.members) == 32
 
 
-def test_a_square_drawn_on_a_plane_turns_at_its_corners():
+def test_a_square_drawn_on_a_plane_turns_at_its_corners() -> None:
     surface = BUILTIN["square"](n=8)
     middle = surface.vertices.mean(axis=0)
     vertex = [
@@ -102,7 +109,7 @@ def test_a_square_drawn_on_a_plane_turns_at_its_corners():
     assert np.degrees(features.turns[vertex]) == pytest.approx([90] * 4)
 
 
-def test_a_spur_beside_a_longer_curve_is_no_feature():
+def test_a_spur_beside_a_longer_curve_is_no_feature() -> None:
     angle = np.radians(15 * np.arange(24))
     ring = np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)
     ring[0] *= 2  # the ray to the right is longer than those beside it
@@ -110,7 +117,7 @@ def test_a_spur_beside_a_longer_curve_is_no_feature():
     faces = np.stack([0 * around, around, 1 + np.arange(1, 25) % 24], axis=1)
     surface = TriSurface(np.concatenate([[[0.0, 0.0, 0.0]], ring]), faces)
 
-    def rays(*degrees):
+    def rays(*degrees: int) -> NDArray[np.int64]:
         return EdgePaths(surface).through(
             np.array([v for d in degrees for v in (0, 1 + d // 15, 0)])
         )
@@ -123,14 +130,14 @@ def test_a_spur_beside_a_longer_curve_is_no_feature():
     assert apart.without_spurs().edges.tolist() == apart.edges.tolist()
 
 
-def test_edges_of_the_boundary_are_no_features():
+def test_edges_of_the_boundary_are_no_features() -> None:
     surface = BUILTIN["square"](n=8)
     assert len(no_features(surface).united(np.arange(len(surface.edges)))) == np.count_nonzero(
         surface.edge_faces[:, 1] >= 0
     )
 
 
-def test_refinement_keeps_features():
+def test_refinement_keeps_features() -> None:
     surface = cube()
     features = Features(surface, sharp_edges(surface, 40))
     rng = np.random.default_rng(1)
@@ -147,7 +154,7 @@ def test_refinement_keeps_features():
         assert (fine.edges == bend).all()
 
 
-def test_triangles_between_features_are_split():
+def test_triangles_between_features_are_split() -> None:
     surface = BUILTIN["square"](n=2)  # all inner edges: most triangles have three
     features = no_features(surface).united(np.arange(len(surface.edges)))
     refinement = refine_at(surface, [], 0, features.edges)
@@ -159,7 +166,7 @@ def test_triangles_between_features_are_split():
     assert fine.surface.area == pytest.approx(surface.area)
 
 
-def test_integers_are_chosen_as_by_trying_all():
+def test_integers_are_chosen_as_by_trying_all() -> None:
     rng = np.random.default_rng(2)
     for _ in range(20):
         root = rng.normal(size=(4, 4))
@@ -176,7 +183,9 @@ def test_integers_are_chosen_as_by_trying_all():
 
 
 @pytest.mark.parametrize("made", [cube, lambda: turned(cube())], ids=["straight", "turned"])
-def test_a_cube_with_its_edges_marked_has_a_grid_on_each_side(made):
+def test_a_cube_with_its_edges_marked_has_a_grid_on_each_side(
+    made: Callable[[], TriSurface],
+) -> None:
     surface = made()
     features = Features(surface, sharp_edges(surface, 40))
     found = run(natural_singularities(surface, features=features))
@@ -192,7 +201,7 @@ def test_a_cube_with_its_edges_marked_has_a_grid_on_each_side(made):
     assert np.ptp(integrated.field.H) < 1e-9
 
 
-def test_the_isotropic_field_reports_its_misalignment():
+def test_the_isotropic_field_reports_its_misalignment() -> None:
     surface = BUILTIN["cylinder"](n=48)
     along = circle(surface, 0.0)
     for flips in (True, False):
@@ -212,7 +221,7 @@ def test_the_isotropic_field_reports_its_misalignment():
 
 
 @pytest.mark.parametrize("flips", [True, False])
-def test_where_nothing_else_fixes_the_crosses_they_turn_to_the_features(flips):
+def test_where_nothing_else_fixes_the_crosses_they_turn_to_the_features(flips: bool) -> None:
     surface = cube()
     slanted = TriSurface(surface.vertices, np.roll(surface.faces, 1, axis=1))
     features = Features(slanted, sharp_edges(slanted, 40))
@@ -225,7 +234,7 @@ def test_where_nothing_else_fixes_the_crosses_they_turn_to_the_features(flips):
     assert np.abs(off).max() > 1  # the first edge of the first triangle is a diagonal
 
 
-def test_a_marked_circle_is_followed_where_the_isotropic_field_is_not():
+def test_a_marked_circle_is_followed_where_the_isotropic_field_is_not() -> None:
     surface = BUILTIN["cylinder"](n=48)
     features = circle(surface, 0.0)
     places = ([np.cos(a), np.sin(a), z] for a, z in ((0.3, 0.5), (2.0, 0.4), (1.1, -0.5), (3, 0.6)))
@@ -242,12 +251,12 @@ def test_a_marked_circle_is_followed_where_the_isotropic_field_is_not():
     assert integrated.field.energy < 1e-10
 
 
-def test_a_curve_that_the_singularities_do_not_fit_is_followed_and_told():
+def test_a_curve_that_the_singularities_do_not_fit_is_followed_and_told() -> None:
     # a circle on the cylinder with a valence 3 on one side and a valence 5 on the other
     surface = BUILTIN["cylinder"](n=48)
     features = circle(surface, 0.0)
 
-    def pair(one, other):
+    def pair(one: float, other: float) -> list[Singularity]:
         places = (([1, 0, one], 3), ([-1, 0, other], 5))
         return [Singularity(surface.closest_point(p), valence) for p, valence in places]
 
@@ -260,7 +269,7 @@ def test_a_curve_that_the_singularities_do_not_fit_is_followed_and_told():
     assert len(beside.aligned.forced_corners) == 0
 
 
-def test_imposed_turns_are_kept_and_free_ones_are_chosen():
+def test_imposed_turns_are_kept_and_free_ones_are_chosen() -> None:
     surface = BUILTIN["annulus"](n=48)
     radius = np.linalg.norm(surface.vertices, axis=1)
     level = radius[np.argmin(np.abs(radius - 0.7))]
@@ -290,7 +299,9 @@ REAL = (
 
 
 @pytest.mark.parametrize("name", REAL)
-def test_features_of_real_surfaces_keep_budget_and_closing(real_surface, name):
+def test_features_of_real_surfaces_keep_budget_and_closing(
+    real_surface: Callable[[str], Path], name: str
+) -> None:
     surface = Problem.from_case(Case(str(real_surface(name)))).surface
     features = Features(surface, sharp_edges(surface, 60))
     found = run(natural_singularities(surface, "globally-optimal", features=features))
@@ -308,7 +319,7 @@ def test_features_of_real_surfaces_keep_budget_and_closing(real_surface, name):
 
 
 @pytest.mark.parametrize("name", ["plate_holes.stl", "wingnut.obj"])
-def test_cad_files_come_out_aligned(real_surface, name):
+def test_cad_files_come_out_aligned(real_surface: Callable[[str], Path], name: str) -> None:
     surface = Problem.from_case(Case(str(real_surface(name)))).surface
     features = Features(surface, sharp_edges(surface, 40))
     found = run(natural_singularities(surface, features=features))
@@ -321,7 +332,9 @@ def test_cad_files_come_out_aligned(real_surface, name):
         assert len(seamless_map(integrated).flipped) == 0
 
 
-def test_pointy_has_no_edge_as_sharp_and_is_aligned_with_its_boundary(real_surface):
+def test_pointy_has_no_edge_as_sharp_and_is_aligned_with_its_boundary(
+    real_surface: Callable[[str], Path],
+) -> None:
     surface = Problem.from_case(Case(str(real_surface("pointy.obj")))).surface
     features = Features(surface, sharp_edges(surface, 40))
     assert len(features) == 0

@@ -1,5 +1,7 @@
 """The anisotropic solver: E to round-off where one scale cannot be aligned."""
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
@@ -102,7 +104,9 @@ def test_random_annuli_converge_from_equal_sizes_in_few_steps(seed: int) -> None
         (lambda: BUILTIN["sphere"](subdivisions=4), [3] * 8, 0.4),
     ],
 )
-def test_other_surfaces_and_valences_converge(make, valences: list[int], gap: float) -> None:
+def test_other_surfaces_and_valences_converge(
+    make: Callable[[], TriSurface], valences: list[int], gap: float
+) -> None:
     surface = make()
     missing = (
         4 * surface.euler_characteristic

@@ -9,7 +9,7 @@ from solvers.features.sharp_edges import sharp_edges
 from solvers.fields.natural import METHODS, CrossesStep, natural_singularities
 from solvers.fields.principal import principal_crosses
 from solvers.primitives import BUILTIN
-from solvers.progress import relayed, run
+from solvers.progress import Progress, relayed, run
 from solvers.singularities.budget import default_corners, index_budget
 from solvers.surface.triangulation import wrap
 from solvers.surface.trisurface import TriSurface
@@ -73,14 +73,14 @@ def test_an_unknown_method_is_refused() -> None:
         run(natural_singularities(SURFACES["disk"](), "best"))
 
 
-def direction_off(surface, step: CrossesStep, directions: np.ndarray) -> np.ndarray:
+def direction_off(surface: TriSurface, step: CrossesStep, directions: np.ndarray) -> np.ndarray:
     """Degrees between the cross of each triangle and a direction (m, 3), 0 to 45."""
     along, across = surface.face_frames
     angle = np.arctan2((across * directions).sum(axis=1), (along * directions).sum(axis=1))
     return np.degrees(np.abs(wrap(step.theta - angle, np.pi / 2)))
 
 
-def around(surface) -> np.ndarray:
+def around(surface: TriSurface) -> np.ndarray:
     """The direction around the z axis in each triangle."""
     x, y, _ = surface.barycentres.T
     return np.stack([-y, x, np.zeros_like(x)], axis=1)
@@ -104,7 +104,7 @@ def test_crosses_are_drawn_along_curvature(method: str) -> None:
     surface = SURFACES["torus"]()
     seen: list[CrossesStep] = []
 
-    def look(step):
+    def look(step: Progress) -> Progress:
         seen.append(step) if isinstance(step, CrossesStep) else None
         return step
 

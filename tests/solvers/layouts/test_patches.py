@@ -1,5 +1,7 @@
 """The patches of a layout as fine grids on the surface."""
 
+from collections.abc import Callable, Sequence
+
 import numpy as np
 import pytest
 
@@ -9,9 +11,10 @@ from solvers.layouts.layout import QuadLayout, quad_layout
 from solvers.primitives import cube_sphere, square
 from solvers.progress import run
 from solvers.singularities.budget import Singularity, default_corners
+from solvers.surface.trisurface import TriSurface
 
 
-def layout_of(surface, singularities=()) -> QuadLayout:
+def layout_of(surface: TriSurface, singularities: Sequence[Singularity] = ()) -> QuadLayout:
     solver = IsotropicSolver(surface, default_corners(surface), flips=False)
     aligned = aligned_field(solver, singularities)
     return run(quad_layout(IntegratedField(aligned, aligned.start)))
@@ -25,7 +28,7 @@ def on_cube() -> QuadLayout:
 
 
 @pytest.mark.parametrize("make", [lambda: layout_of(square(8)), on_cube], ids=["square", "sphere"])
-def test_the_grids_cover_the_surface_evenly(make) -> None:
+def test_the_grids_cover_the_surface_evenly(make: Callable[[], QuadLayout]) -> None:
     layout = make()
     sampled, surface = layout.patch_mesh, layout.surface
     corners = sampled.points[sampled.quads]

@@ -1,5 +1,6 @@
 """Smoothing: back to closed forms, on the surface and its boundary, nothing made worse."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -65,7 +66,9 @@ def test_an_annulus_returns_to_circles_and_rays() -> None:
 
 
 @pytest.mark.parametrize(("build", "least"), [(annulus, 0.95), (torus, 0.95), (sphere, 0.7)])
-def test_five_thousand_quads_come_out_nearly_rectangular(build, least: float) -> None:
+def test_five_thousand_quads_come_out_nearly_rectangular(
+    build: Callable[..., QuadMesh], least: float
+) -> None:
     sizes = {annulus: (180, 28), torus: (120, 42), sphere: (29,)}
     smoothed = smooth(build(*sizes[build], noise=0.3))
     assert 4900 < smoothed.n_quads < 5100

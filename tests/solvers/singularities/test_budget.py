@@ -35,7 +35,9 @@ def test_angles_halfway_between_two_corners_are_judged_alike(turn: float) -> Non
 @pytest.mark.parametrize(
     ("degrees", "index"), [(5, 1), (90, 1), (134, 1), (136, 0), (224, 0), (226, -1), (314, -1)]
 )
-def test_the_index_of_a_corner_is_that_of_the_nearest_number_of_quads(degrees, index) -> None:
+def test_the_index_of_a_corner_is_that_of_the_nearest_number_of_quads(
+    degrees: float, index: int
+) -> None:
     angles = np.radians(degrees) * np.arange(9) / 8
     rim = np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=1)
     faces = [[0, i, i + 1] for i in range(1, 9)]

@@ -1,5 +1,6 @@
 """Tools that keep the index sum: known answers, and refusals with their reason."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -20,11 +21,11 @@ def at(surface: TriSurface, *placed: tuple[list[float], int]) -> list[Singularit
     return [Singularity(surface.closest_point(x), v) for x, v in placed]
 
 
-def where(surface: TriSurface, singularities) -> np.ndarray:
+def where(surface: TriSurface, singularities: Sequence[Singularity]) -> np.ndarray:
     return surface.positions([s.point for s in singularities])
 
 
-def sum_of(singularities) -> int:
+def sum_of(singularities: Sequence[Singularity]) -> int:
     return sum(s.index for s in singularities)
 
 

@@ -1,5 +1,7 @@
 """The missing indices: where symmetry and closed forms say they belong."""
 
+from collections.abc import Sequence
+
 import numpy as np
 import pytest
 
@@ -7,13 +9,13 @@ from solvers.errors import SingularityError
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.primitives import BUILTIN
 from solvers.progress import run
-from solvers.singularities.budget import index_budget
+from solvers.singularities.budget import Singularity, index_budget
 from solvers.surface.trisurface import TriSurface
 from solvers.validity.completion import missing_singularities
 from tests.solvers.suite import SURFACES, at_vertices
 
 
-def completed(surface: TriSurface, start=()) -> np.ndarray:
+def completed(surface: TriSurface, start: Sequence[Singularity] = ()) -> np.ndarray:
     found = run(missing_singularities(IsotropicSolver(surface), start))
     return surface.positions([s.point for s in found])
 

@@ -1,5 +1,8 @@
 """Straight walks, and singularities moved to where every condition holds."""
 
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -96,7 +99,7 @@ def test_nearly_every_random_annulus_and_plate_can_be_made_valid() -> None:
     assert len(failures) <= 1, failures
 
 
-def fresh(surface: TriSurface, singularities) -> float:
+def fresh(surface: TriSurface, singularities: Sequence[Singularity]) -> float:
     """The largest defect, degrees, of a field solved anew with the singularities as vertices."""
     refinement = refine_at(surface, [s.point for s in singularities])
     valences = [s.valence for s in singularities]
@@ -116,7 +119,9 @@ def test_handles_chosen_anew_on_the_refined_surface_lead_nowhere_else(seed: int)
     assert sum(step.stage == "verifying" for step in shown) < 12
 
 
-def test_corrections_that_go_to_and_fro_over_a_jump_find_a_way_out(real_surface) -> None:
+def test_corrections_that_go_to_and_fro_over_a_jump_find_a_way_out(
+    real_surface: Callable[[str], Path],
+) -> None:
     """On vertices at symmetrical places every move changes how the surface is refined."""
     torus = Problem.from_case(Case(str(real_surface("torus.obj")))).surface
     start = [
