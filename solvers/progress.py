@@ -19,6 +19,12 @@ class Progress:
         What is being done, in plain words.
     fraction : float
         How much of the whole is done, from 0 to 1.
+
+    Examples
+    --------
+    >>> from solvers import Progress
+    >>> Progress("placing singularities", 0.5)
+    Progress(stage='placing singularities', fraction=0.5)
     """
 
     stage: str
@@ -37,6 +43,23 @@ def run(
         What to run.
     on_progress : callable, optional
         Called with each `Progress`.
+
+    Returns
+    -------
+    object
+        What the computation returns.
+
+    Examples
+    --------
+    >>> from solvers import run
+    >>> from solvers.primitives import disk
+    >>> from solvers.singularities import far_points
+    >>> surface = disk(edge_length=0.25)
+    >>> points = run(far_points(surface, [], count=2), lambda step: print(step.fraction))
+    0.0
+    0.5
+    >>> len(points)
+    2
     """
     while True:
         try:

@@ -38,6 +38,6 @@ BUILTIN: dict[str, Callable[..., TriSurface]] = {
         genus,
     )
 }
-"""The built-in surfaces by name."""
+"""The functions that make the built-in surfaces, by name: ``BUILTIN["torus"](n=36)``."""
 
 __all__ = ["BUILTIN", *BUILTIN]

@@ -6,6 +6,10 @@ from solvers.errors import SurfaceError
 from solvers.surface.validation import LARGEST
 
 MOST_VERTICES = 4_000_000
+"""Vertices of the finest surface that is made.
+
+Chosen, so that a slip in a parameter gets one line, not all memory.
+"""
 
 
 def whole(name: str, value: float, least: int, step: int = 1) -> int:

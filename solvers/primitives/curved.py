@@ -16,7 +16,35 @@ from solvers.surface.trisurface import TriSurface
 
 
 def sphere(subdivisions: int = 4, radius: float = 1.0) -> TriSurface:
-    """Return an icosahedron, each triangle split in four `subdivisions` times, blown up."""
+    """Return a sphere about the origin: an icosahedron, its triangles split in four, blown up.
+
+    Parameters
+    ----------
+    subdivisions : int, optional
+        How often the triangles are split; 0 is the icosahedron.
+    radius : float, optional
+        Of the sphere.
+
+    Returns
+    -------
+    TriSurface
+        Of 20 * 4^subdivisions triangles.
+
+    Raises
+    ------
+    SurfaceError
+        If a parameter is not such a number, or there would be too many vertices.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solvers.primitives import sphere
+    >>> surface = sphere(subdivisions=2, radius=3.0)
+    >>> surface.n_faces, surface.euler_characteristic
+    (320, 2)
+    >>> bool(np.allclose(np.linalg.norm(surface.vertices, axis=1), 3.0))
+    True
+    """
     vertices, faces = _icosphere(subdivisions)
     return TriSurface(positive("radius", radius) * vertices, faces)
 
@@ -30,6 +58,31 @@ def cube_sphere(n: int = 24, radius: float = 1.0) -> TriSurface:
         Cells along each edge of the cube; even.
     radius : float, optional
         Of the sphere.
+
+    Returns
+    -------
+    TriSurface
+        Of 12 n^2 triangles.
+
+    Raises
+    ------
+    SurfaceError
+        If a parameter is not such a number, or there would be too many vertices.
+
+    Notes
+    -----
+    The lines of the grid are great circles at equal angles (an equiangular cubed sphere: Ronchi,
+    Iacono and Paolucci 1996).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solvers.primitives import cube_sphere
+    >>> surface = cube_sphere(n=4, radius=np.sqrt(3))
+    >>> surface.n_faces
+    192
+    >>> surface.position(surface.closest_point([1, 1, 1])).round(9).tolist()  # a corner of the cube
+    [1.0, 1.0, 1.0]
     """
     n = whole("n", n, 2, 2)
     affordable(6.0 * n * n)
@@ -52,14 +105,67 @@ def cube_sphere(n: int = 24, radius: float = 1.0) -> TriSurface:
 
 
 def ellipsoid(x: float = 1.5, y: float = 1.0, z: float = 0.75, subdivisions: int = 4) -> TriSurface:
-    """Return an ellipsoid with the given half axes."""
+    """Return an ellipsoid about the origin: the triangles of `sphere`, stretched.
+
+    Parameters
+    ----------
+    x, y, z : float, optional
+        Half axes.
+    subdivisions : int, optional
+        As of `sphere`.
+
+    Returns
+    -------
+    TriSurface
+        Of 20 * 4^subdivisions triangles.
+
+    Raises
+    ------
+    SurfaceError
+        If a parameter is not such a number, or there would be too many vertices.
+
+    Examples
+    --------
+    >>> from solvers.primitives import ellipsoid
+    >>> ellipsoid(3.0, 2.0, 1.0, subdivisions=2).vertices.max(axis=0).round(9).tolist()
+    [3.0, 2.0, 1.0]
+    """
     vertices, faces = _icosphere(subdivisions)
     axes = [positive(name, value) for name, value in (("x", x), ("y", y), ("z", z))]
     return TriSurface(vertices * axes, faces)
 
 
 def blob(waves: float = 0.3, subdivisions: int = 4) -> TriSurface:
-    """Return a closed wavy surface: a sphere of radius 1 + waves * (a cubic of the direction)."""
+    """Return a closed wavy surface: a sphere of radius 1 + waves * (a cubic of the direction).
+
+    Parameters
+    ----------
+    waves : float, optional
+        How wavy, from 0, the unit sphere, to 0.6.
+    subdivisions : int, optional
+        As of `sphere`.
+
+    Returns
+    -------
+    TriSurface
+        Of 20 * 4^subdivisions triangles.
+
+    Raises
+    ------
+    SurfaceError
+        If a parameter is not such a number, or there would be too many vertices.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solvers.primitives import blob, sphere
+    >>> round_, wavy = blob(waves=0.0, subdivisions=2), blob(waves=0.3, subdivisions=2)
+    >>> bool((round_.vertices == sphere(subdivisions=2).vertices).all())
+    True
+    >>> radius = np.linalg.norm(wavy.vertices, axis=1)
+    >>> bool(radius.min() < 0.8 < 1.2 < radius.max())
+    True
+    """
     if not isinstance(waves, (int, float)) or not 0 <= waves <= 0.6:
         raise SurfaceError(f"waves must be a number from 0 to 0.6, not {waves!r}")
     vertices, faces = _icosphere(subdivisions)
@@ -69,7 +175,35 @@ def blob(waves: float = 0.3, subdivisions: int = 4) -> TriSurface:
 
 
 def cylinder(radius: float = 1.0, height: float = 2.0, n: int = 64) -> TriSurface:
-    """Return an open cylinder about the z axis with n vertices on each circle."""
+    """Return an open cylinder about the z axis, its middle at the origin.
+
+    Parameters
+    ----------
+    radius, height : float, optional
+        Of the cylinder.
+    n : int, optional
+        Vertices on each circle.
+
+    Returns
+    -------
+    TriSurface
+        Of nearly equilateral triangles, with two boundary loops.
+
+    Raises
+    ------
+    SurfaceError
+        If a parameter is not such a number, or there would be too many vertices.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solvers.primitives import cylinder
+    >>> surface = cylinder(radius=1.0, height=2.0, n=48)
+    >>> surface.euler_characteristic, [len(loop) for loop in surface.boundary_loops]
+    (0, [48, 48])
+    >>> round(surface.area / (2 * np.pi * 1.0 * 2.0), 2)
+    1.0
+    """
     n = whole("n", n, 3)
     radius, height = positive("radius", radius), positive("height", height)
     wanted = height / (math.sqrt(0.75) * 2 * math.pi * radius) * n
@@ -93,6 +227,27 @@ def torus(major: float = 1.0, minor: float = 0.4, n: int = 72) -> TriSurface:
         Radius of the tube's centre line, and of the tube.
     n : int, optional
         Vertices around the axis.
+
+    Returns
+    -------
+    TriSurface
+        Closed, of genus 1.
+
+    Raises
+    ------
+    SurfaceError
+        If a parameter is not such a number, minor is not below major, or there would be too many
+        vertices.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solvers.primitives import torus
+    >>> surface = torus(major=1.0, minor=0.4)
+    >>> surface.genus, surface.euler_characteristic
+    (1, 0)
+    >>> round(surface.area / (4 * np.pi**2 * 1.0 * 0.4), 2)
+    1.0
     """
     plane, faces = _torus_pattern(major, minor, n)
     return TriSurface(_on_torus(plane, major, minor), faces)
@@ -101,7 +256,32 @@ def torus(major: float = 1.0, minor: float = 0.4, n: int = 72) -> TriSurface:
 def torus_with_hole(
     major: float = 1.0, minor: float = 0.4, n: int = 72, hole: float = 0.35
 ) -> TriSurface:
-    """Return a torus with one boundary: a round hole of about the given radius on the outside."""
+    """Return a torus with one boundary: a round hole of about the given radius on the outside.
+
+    Parameters
+    ----------
+    major, minor, n : float, float and int, optional
+        As of `torus`.
+    hole : float, optional
+        Radius of the hole, about.
+
+    Returns
+    -------
+    TriSurface
+        Of genus 1, with one boundary loop.
+
+    Raises
+    ------
+    SurfaceError
+        As of `torus`, and if the hole does not fit.
+
+    Examples
+    --------
+    >>> from solvers.primitives import torus_with_hole
+    >>> surface = torus_with_hole(n=36)
+    >>> surface.genus, len(surface.boundary_loops), surface.euler_characteristic
+    (1, 1, -1)
+    """
     plane, faces = _torus_pattern(major, minor, n)
     step = 2 * math.pi / n
     radius = positive("hole", hole) / (major + minor)

@@ -21,6 +21,27 @@ def genus(handles: int = 2, subdivisions: int = 3) -> TriSurface:
         The genus.
     subdivisions : int, optional
         How often each square is split in four.
+
+    Returns
+    -------
+    TriSurface
+        Closed.
+
+    Raises
+    ------
+    SurfaceError
+        If a parameter is not such a number, or there would be too many vertices.
+
+    Notes
+    -----
+    Catmull and Clark 1978.
+
+    Examples
+    --------
+    >>> from solvers.primitives import genus
+    >>> surface = genus(handles=3, subdivisions=1)
+    >>> surface.genus, surface.euler_characteristic
+    (3, -4)
     """
     handles = whole("handles", handles, 1)
     subdivisions = whole("subdivisions", subdivisions, 1)

@@ -16,12 +16,13 @@ from solvers.surface.triangulation import FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface
 
 SMOOTHING = 20
-"""Rounds of moving the interior points; the triangles hardly change after these."""
-CLEARANCE = 0.7
-"""Least distance of the first interior points from the boundary's, in edge lengths."""
+"""Rounds of moving the interior points. Chosen; the triangles hardly change after these."""
 
+CLEARANCE = 0.7
+"""Least distance of the first interior points from the boundary's, in edge lengths. Chosen."""
 
 PENTAGON = ((-1.5, -1.5), (1.5, -1.5), (1.5, -0.5), (-0.5, 1.5), (-1.5, 1.5))
+"""Corners (x, y) of the polygon that is meshed where none is given: a square cut at one corner."""
 
 
 def planar(
@@ -40,16 +41,31 @@ def planar(
     edge_length : float, optional
         Wanted length of the edges. Sides are divided evenly; shorter sides stay whole.
 
+    Returns
+    -------
+    TriSurface
+        With the polygons' corners among its vertices, in their order.
+
     Raises
     ------
     SurfaceError
         When a polygon crosses itself or another, or a gap is too narrow for the edge length.
+
+    Notes
+    -----
+    A triangular lattice, moved towards an optimal Delaunay triangulation (Chen and Xu 2004).
+
+    Examples
+    --------
+    >>> from solvers.primitives import planar
+    >>> hole = [[0.25, 0.25], [0.75, 0.25], [0.75, 0.75], [0.25, 0.75]]
+    >>> surface = planar([[0, 0], [3, 0], [0, 3]], [hole], edge_length=0.25)
+    >>> round(surface.area, 9), len(surface.boundary_loops)
+    (4.25, 2)
     """
     h = positive("edge_length", edge_length)
     if not isinstance(holes, Sequence):
         raise SurfaceError(f"holes must be a list of polygons, not {holes!r}")
-    if not hasattr(holes, "__len__"):
-        raise SurfaceError("holes must be a list of polygons")
     rings = [_ring(outer, 1.0), *(_ring(hole, -1.0) for hole in holes)]
     affordable(_area(rings[0]) / h / h)
     loops = [_divide(ring, h) for ring in rings]

@@ -1,1 +1,28 @@
 """Singularities and corners: the index budget, pairs, symmetry, spacing."""
+
+from __future__ import annotations
+
+from solvers.singularities.budget import (
+    IndexBudget,
+    Singularity,
+    default_corners,
+    index_budget,
+    require_budget,
+)
+from solvers.singularities.pairs import merged, pair_at, split
+from solvers.singularities.placing import far_points
+from solvers.singularities.symmetry import mirrored, turned
+
+__all__ = [
+    "IndexBudget",
+    "Singularity",
+    "default_corners",
+    "far_points",
+    "index_budget",
+    "merged",
+    "mirrored",
+    "pair_at",
+    "require_budget",
+    "split",
+    "turned",
+]

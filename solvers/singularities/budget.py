@@ -12,7 +12,9 @@ from solvers.surface.points import SurfacePoint
 from solvers.surface.trisurface import TriSurface
 
 TIE = 1e-3
-"""By how many quads an angle may miss the middle between two numbers and still count as there."""
+"""By how many quads, of 90 degrees each, an angle may miss the middle between two whole numbers and
+still count as there. Chosen, above the rounding of coordinates in single precision.
+"""
 
 
 @dataclass(frozen=True)
@@ -27,6 +29,17 @@ class Singularity:
         Number of quads that meet there; 4 would be regular.
     locked : bool, optional
         Whether it must stay where it is.
+
+    Examples
+    --------
+    >>> from solvers.primitives import disk
+    >>> from solvers.singularities import Singularity
+    >>> surface = disk(edge_length=0.25)
+    >>> for valence in (3, 5, 6):
+    ...     print(Singularity(surface.point_at_vertex(0), valence).index)
+    1
+    -1
+    -2
     """
 
     point: SurfacePoint
@@ -53,6 +66,17 @@ def default_corners(surface: TriSurface) -> dict[int, int]:
         Index k = 2 - (number of quads that meet there, the nearest to the angle and at least
         one) for each boundary vertex where it is not zero: +1 at 90 degrees, -1 at 270. Halfway
         between, as at 135 degrees, the one nearer to a straight boundary counts.
+
+    Notes
+    -----
+    The paper's section 2.
+
+    Examples
+    --------
+    >>> from solvers.primitives import square
+    >>> from solvers.singularities import default_corners
+    >>> default_corners(square(n=2))  # vertices 0 to 2 are the lower side, 6 to 8 the upper
+    {0: 1, 2: 1, 6: 1, 8: 1}
     """
     vertices = np.flatnonzero(surface.boundary_vertices)
     turn = surface.angle_defects[vertices] / (np.pi / 2)
@@ -76,6 +100,14 @@ class IndexBudget:
         The comparison in plain words, with what is missing.
     remedies : tuple of str
         Single changes that would meet the budget.
+
+    Examples
+    --------
+    >>> from solvers.primitives import sphere
+    >>> from solvers.singularities import index_budget
+    >>> budget = index_budget(sphere(subdivisions=1), [], {})
+    >>> budget.satisfied, budget.missing, budget.remedies
+    (False, 8, ('add 8 valence 3',))
     """
 
     index_sum: int
@@ -107,6 +139,21 @@ def index_budget(
         Interior singularities.
     corners : mapping of int to int
         Index of the corners, by boundary vertex.
+
+    Returns
+    -------
+    IndexBudget
+        The sum, what it must be, and what would mend it.
+
+    Examples
+    --------
+    The square needs no singularity, for its four corners sum to 4 = 4 chi:
+
+    >>> from solvers.primitives import square
+    >>> from solvers.singularities import default_corners, index_budget
+    >>> surface = square(n=2)
+    >>> index_budget(surface, [], default_corners(surface)).message
+    'index 4 of 4'
     """
     total = sum(s.index for s in singularities) + sum(corners.values())
     required = 4 * surface.euler_characteristic
@@ -125,13 +172,27 @@ def require_budget(
 
     Parameters
     ----------
-    surface, singularities, corners
-        As for `index_budget`.
+    surface : TriSurface
+        The surface.
+    singularities : sequence of Singularity
+        Interior singularities.
+    corners : mapping of int to int
+        Index of the corners, by boundary vertex.
 
     Raises
     ------
     SingularityError
         It names the sum, what is required, and what would mend it.
+
+    Examples
+    --------
+    >>> from solvers.primitives import torus
+    >>> from solvers.singularities import Singularity, require_budget
+    >>> surface = torus(n=12)
+    >>> require_budget(surface, [], {})  # a torus needs none
+    >>> require_budget(surface, [Singularity(surface.point_at_vertex(0), 5)], {})
+    Traceback (most recent call last):
+    solvers.errors.SingularityError: the singularities miss the index budget, -1 of 0: ...
     """
     budget = index_budget(surface, singularities, corners)
     if not budget.satisfied:

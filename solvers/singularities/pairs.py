@@ -14,10 +14,10 @@ from solvers.surface.points import SurfacePoint
 from solvers.surface.trisurface import TriSurface
 
 APART = 0.04
-"""How far the two of a pair are put apart, in square roots of the surface's area."""
+"""How far the two of a pair are put apart, in square roots of the surface's area. Chosen."""
 
 DIRECTIONS = 12
-"""How many directions are tried for one that leaves the most room."""
+"""How many directions, in half a turn, are tried for one that leaves the most room. Chosen."""
 
 
 def pair_at(
@@ -37,12 +37,30 @@ def pair_at(
     point : SurfacePoint
         The middle of the pair.
     apart : float, optional
-        How far, in units of length; by default two edges or a little more on fine meshes.
+        How far, in units of length; by default two mean edges, at least `APART`.
+
+    Returns
+    -------
+    tuple of 2 Singularity
+        The valence 3, the valence 5.
 
     Raises
     ------
     SingularityError
         There is no room.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solvers.primitives import disk
+    >>> from solvers.singularities import pair_at
+    >>> surface = disk(edge_length=0.1)
+    >>> pair = pair_at(surface, [], surface.closest_point([0.3, 0.0, 0.0]), apart=0.2)
+    >>> [s.valence for s in pair], sum(s.index for s in pair)
+    ([3, 5], 0)
+    >>> first, second = surface.positions([s.point for s in pair])
+    >>> round(float(np.linalg.norm(first - second)), 6)
+    0.2
     """
     first, second = _ends(surface, singularities, point, apart)
     return Singularity(first, 3), Singularity(second, 5)
@@ -65,10 +83,28 @@ def merged(
     one, other : int
         Which two, from 0; the new one takes the place of the earlier in the sequence.
 
+    Returns
+    -------
+    tuple of Singularity
+        One fewer, or two where their indices cancel.
+
     Raises
     ------
     SingularityError
         No valence has the sum of their indices, or both are locked.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solvers.primitives import disk
+    >>> from solvers.singularities import Singularity, merged
+    >>> surface = disk(edge_length=0.1)
+    >>> left, right = (surface.closest_point([x, 0.0, 0.0]) for x in (-0.2, 0.2))
+    >>> (one,) = merged(surface, [Singularity(left, 5), Singularity(right, 5)], 0, 1)
+    >>> one.valence, np.allclose(surface.position(one.point), 0.0)  # a 6, at the origin
+    (6, True)
+    >>> merged(surface, [Singularity(left, 3), Singularity(right, 5)], 0, 1)
+    ()
     """
     first, second = sorted((one, other))
     a, b = singularities[first], singularities[second]
@@ -114,10 +150,24 @@ def split(
     apart : float, optional
         As of `pair_at`.
 
+    Returns
+    -------
+    tuple of Singularity
+        One more; the parts stand where the one stood.
+
     Raises
     ------
     SingularityError
         Its index is 1 or -1, it is locked, or there is no room.
+
+    Examples
+    --------
+    >>> from solvers.primitives import disk
+    >>> from solvers.singularities import Singularity, split
+    >>> surface = disk(edge_length=0.1)
+    >>> one = Singularity(surface.point_at_vertex(0), 8)
+    >>> [s.valence for s in split(surface, [one], 0)]
+    [6, 6]
     """
     whole = singularities[which]
     name = f"#{which + 1}"

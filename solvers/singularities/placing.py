@@ -34,7 +34,17 @@ def far_points(
     Returns
     -------
     tuple of SurfacePoint
-        At vertices.
+        At vertices; the result of the computation, for `solvers.run`.
+
+    Examples
+    --------
+    >>> from solvers import run
+    >>> from solvers.primitives import disk
+    >>> from solvers.singularities import far_points
+    >>> surface = disk(edge_length=0.1)
+    >>> (middle,) = run(far_points(surface, [], count=1))
+    >>> surface.position(middle).tolist()
+    [0.0, 0.0, 0.0]
     """
     graph = _edge_graph(surface)
     used = [surface.faces[s.point.face][np.argmax(s.point.barycentric)] for s in singularities]

@@ -14,9 +14,11 @@ from solvers.surface.triangulation import FloatArray
 from solvers.surface.trisurface import TriSurface
 
 FARTHEST = 0.02
-"""How far from the surface a singularity may be carried, in diagonals of the bounding box."""
+"""How far from the surface a singularity may be carried, in diagonals of the bounding box. Chosen.
+"""
 
 AXES = "xyz"
+"""Names of the axes, in messages."""
 
 
 def mirrored(
@@ -36,10 +38,25 @@ def mirrored(
     axis : {0, 1, 2}
         The normal of the plane: x, y or z, or the principal axis nearest to it.
 
+    Returns
+    -------
+    tuple of Singularity
+        In the same order.
+
     Raises
     ------
     SingularityError
         The surface is not symmetrical enough, or a singularity that would move is locked.
+
+    Examples
+    --------
+    >>> from solvers.primitives import disk
+    >>> from solvers.singularities import Singularity, mirrored
+    >>> surface = disk(edge_length=0.1)
+    >>> one = Singularity(surface.closest_point([0.3, 0.2, 0.0]), 5)
+    >>> (image,) = mirrored(surface, [one], axis=0)
+    >>> surface.position(image.point).round(6).tolist()
+    [-0.3, 0.2, 0.0]
     """
     matrix = np.eye(3)
     matrix[axis, axis] = -1
@@ -56,17 +73,35 @@ def turned(
 
     Parameters
     ----------
-    surface, singularities
-        As of `mirrored`.
+    surface : TriSurface
+        The surface.
+    singularities : sequence of Singularity
+        The configuration.
     axis : {0, 1, 2}
         x, y or z, or the principal axis nearest to it.
     angle : float
         Radians.
 
+    Returns
+    -------
+    tuple of Singularity
+        In the same order.
+
     Raises
     ------
     SingularityError
         As of `mirrored`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solvers.primitives import disk
+    >>> from solvers.singularities import Singularity, turned
+    >>> surface = disk(edge_length=0.1)
+    >>> one = Singularity(surface.closest_point([0.3, 0.0, 0.0]), 5)
+    >>> (image,) = turned(surface, [one], axis=2, angle=np.pi / 2)
+    >>> surface.position(image.point).round(6).tolist()
+    [0.0, 0.3, 0.0]
     """
     matrix = np.eye(3)
     u, v = (axis + 1) % 3, (axis + 2) % 3

@@ -1,1 +1,31 @@
 """The triangle surface: points, connectivity, validation, loops, paths, refinement."""
+
+from __future__ import annotations
+
+from solvers.surface.cut_graph import cut_graph
+from solvers.surface.delaunay import DelaunayTriangulation, Located
+from solvers.surface.edge_paths import EdgePaths
+from solvers.surface.geodesics import straightest
+from solvers.surface.homology import HandleLoops, handle_loops
+from solvers.surface.points import SurfacePoint
+from solvers.surface.refinement import Refinement, refine_at, refine_everywhere
+from solvers.surface.triangulation import IntrinsicTriangulation
+from solvers.surface.trisurface import TriSurface
+from solvers.surface.validation import problems
+
+__all__ = [
+    "DelaunayTriangulation",
+    "EdgePaths",
+    "HandleLoops",
+    "IntrinsicTriangulation",
+    "Located",
+    "Refinement",
+    "SurfacePoint",
+    "TriSurface",
+    "cut_graph",
+    "handle_loops",
+    "problems",
+    "refine_at",
+    "refine_everywhere",
+    "straightest",
+]

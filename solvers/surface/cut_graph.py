@@ -42,6 +42,21 @@ def cut_graph(
     -------
     (c,) int array
         One halfedge of each interior edge of the cut.
+
+    Examples
+    --------
+    Cut from rim to rim, an annulus is a disk: its Euler characteristic, 0, gains an edge for each
+    of the cut, and a vertex for each between its ends.
+
+    >>> import numpy as np
+    >>> from solvers.primitives import annulus
+    >>> from solvers.surface import cut_graph, handle_loops
+    >>> surface = annulus(n=24)
+    >>> t, rims = surface.triangulation, surface.boundary_loops
+    >>> cut = cut_graph(t, rims, handle_loops(t, rims).chain, np.zeros(0, dtype=np.int64))
+    >>> on_cut = np.unique([t.tail[cut], t.head[cut]])
+    >>> len(cut) - int((~surface.boundary_vertices[on_cut]).sum())
+    1
     """
     t = triangulation
     on_handles = np.flatnonzero(handle_chain.any(axis=0))

@@ -23,9 +23,13 @@ from solvers.surface.triangulation import (
 )
 
 TOLERANCE = 1e-10
-"""How negative a cotangent weight must be, to be worth a flip (cocircular points would cycle)."""
+"""How negative a cotangent weight, a pure number, must be to be worth a flip.
+
+Chosen, well above rounding: with 0, cocircular points would flip back and forth.
+"""
 
 MAX_ROUNDS = 10_000
+"""Rounds of flips after which they are said not to end. Chosen; surfaces take some tens."""
 
 
 @dataclass(frozen=True)
@@ -63,6 +67,21 @@ class Located:
     turn : (k,) float array
         Angle, in that frame, of a direction that was at angle zero in the frame of the original
         triangle, radians.
+
+    Examples
+    --------
+    The kite of `DelaunayTriangulation`, whose vertex 0 is the last corner of the new triangle 0:
+
+    >>> import numpy as np
+    >>> from solvers.surface import DelaunayTriangulation, TriSurface
+    >>> kite = TriSurface(
+    ...     [[-2, 0, 0], [0, -1, 0], [2, 0, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]]
+    ... ).triangulation
+    >>> delaunay = DelaunayTriangulation(kite, np.zeros((1, 6), dtype=bool))
+    >>> corner = delaunay.triangulation.corner_positions[0, 2]
+    >>> where = delaunay.locate(np.array([0]), np.array([[0.0, 0.0]]))
+    >>> bool(np.allclose(where.place, corner))
+    True
     """
 
     face: IntArray
@@ -95,6 +114,27 @@ class DelaunayTriangulation:
     ------
     SolveError
         If the flips do not end, which only rounding on next to degenerate triangles can cause.
+
+    Notes
+    -----
+    Fisher, Springborn, Schroeder and Bobenko 2007; a flip is worth it where the cotangent weight
+    of the edge is negative, and all that share no triangle are made at once.
+
+    Examples
+    --------
+    A flat kite, its diagonal of length 4 flipped to the one of length 2:
+
+    >>> import numpy as np
+    >>> from solvers.surface import DelaunayTriangulation, TriSurface
+    >>> kite = TriSurface(
+    ...     [[-2, 0, 0], [0, -1, 0], [2, 0, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]]
+    ... ).triangulation
+    >>> delaunay = DelaunayTriangulation(kite, np.zeros((1, 6), dtype=bool))
+    >>> lengths = kite.lengths.max(), delaunay.triangulation.lengths.min()
+    >>> delaunay.n_flips, *(round(float(length), 9) for length in lengths)
+    (1, 4.0, 2.0)
+    >>> bool(kite.weights.min() < 0 <= delaunay.triangulation.weights.min())
+    True
     """
 
     def __init__(

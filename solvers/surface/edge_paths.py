@@ -18,6 +18,16 @@ class EdgePaths:
     ----------
     surface : TriSurface
         The surface.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solvers.primitives import rectangle
+    >>> from solvers.surface import EdgePaths
+    >>> surface = rectangle(2.0, 1.0, columns=4, rows=2)
+    >>> path = EdgePaths(surface).through(np.array([0, 4]))  # along the lower side
+    >>> surface.edges[path].tolist()
+    [[0, 1], [1, 2], [2, 3], [3, 4]]
     """
 
     def __init__(self, surface: TriSurface) -> None:

@@ -26,6 +26,24 @@ def straightest(surface: TriSurface, start: SurfacePoint, vector: FloatArray) ->
     Returns
     -------
     SurfacePoint
+        The end, in the triangle that the walk came to.
+
+    Notes
+    -----
+    The straightest geodesic of Polthier and Schmies 1998, for walks that meet no vertex; the vector
+    is carried over edges by the Levi-Civita transport.
+
+    Examples
+    --------
+    In the plane a straight walk adds its vector:
+
+    >>> import numpy as np
+    >>> from solvers.primitives import square
+    >>> from solvers.surface import SurfacePoint, straightest
+    >>> surface = square(n=2, size=2.0)  # triangle 0 has its first edge along x
+    >>> end = straightest(surface, SurfacePoint(0, (1.0, 0.0, 0.0)), np.array([1.5, 0.5]))
+    >>> surface.position(end).round(6).tolist()
+    [0.5, -0.5, 0.0]
     """
     t = surface.triangulation
     face, weights = start.face, np.array(start.barycentric)

@@ -22,11 +22,11 @@ SNAP = 1e-5
 """Distance from an edge or vertex below which a point is moved onto it, in longest edges of the
 triangle.
 
-Nearer ones would make triangles too flat for their angles to be known in double precision.
+From double precision: nearer ones would make triangles too flat for their angles to be known.
 """
 
 RINGS = 2
-"""How many rings of triangles around a point are split at each level."""
+"""How many rings of triangles around a point are split at each level. Chosen."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,6 +43,20 @@ class Refinement:
         The vertex of the refined surface at each of the inserted points.
     parent_face : (m,) int array
         The original triangle that each refined triangle is part of.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solvers.primitives import square
+    >>> from solvers.surface import refine_everywhere
+    >>> refinement = refine_everywhere(square(n=2))
+    >>> np.bincount(refinement.parent_face).tolist()  # four triangles of each
+    [4, 4, 4, 4, 4, 4, 4, 4]
+    >>> fine = refinement.surface.point_at_vertex(9)  # a new one
+    >>> lifted = refinement.lift(fine)
+    >>> same = refinement.coarse.position(lifted) == refinement.surface.position(fine)
+    >>> bool(same.all())
+    True
     """
 
     coarse: TriSurface
@@ -87,6 +101,24 @@ def refine_at(
     Returns
     -------
     Refinement
+        With a vertex for each of the points.
+
+    Notes
+    -----
+    The paper's adapted mesh (section "Preliminary results", step 2).
+
+    Examples
+    --------
+    >>> from solvers.primitives import square
+    >>> from solvers.surface import SurfacePoint, refine_at
+    >>> surface = square(n=2)
+    >>> point = SurfacePoint(0, (0.5, 0.25, 0.25))
+    >>> refinement = refine_at(surface, [point], levels=2)
+    >>> (vertex,) = refinement.vertices
+    >>> bool((refinement.surface.vertices[vertex] == surface.position(point)).all())
+    True
+    >>> surface.n_faces < refinement.surface.n_faces, round(refinement.surface.area, 9)
+    (True, 1.0)
     """
     mesh = _Mesh(surface, points)
     if feature_edges is not None and len(feature_edges):
@@ -106,6 +138,19 @@ def refine_everywhere(surface: TriSurface) -> Refinement:
     ----------
     surface : TriSurface
         What to refine; its vertices keep their numbers.
+
+    Returns
+    -------
+    Refinement
+        Without inserted points.
+
+    Examples
+    --------
+    >>> from solvers.primitives import sphere
+    >>> from solvers.surface import refine_everywhere
+    >>> refinement = refine_everywhere(sphere(subdivisions=0))
+    >>> refinement.coarse.n_faces, refinement.surface.n_faces
+    (20, 80)
     """
     mesh = _Mesh(surface, [])
     mesh.split_in_four(np.arange(surface.n_faces))

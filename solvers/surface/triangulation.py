@@ -73,6 +73,18 @@ class IntrinsicTriangulation:
         The halfedge on the other side; -1 on the boundary.
     lengths : (m, 3) float array
         Length of each halfedge.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solvers.surface import IntrinsicTriangulation
+    >>> alone = np.full(3, -1)
+    >>> t = IntrinsicTriangulation(3, np.array([[0, 1, 2]]), alone, np.array([[3.0, 4.0, 5.0]]))
+    >>> float(t.areas[0]), float(np.degrees(t.angles[0, 1]).round(6))
+    (6.0, 90.0)
+    >>> corner_values = t.corner_positions[:, :, 0]  # the function x has the gradient (1, 0)
+    >>> t.gradients(corner_values).round(6).tolist()
+    [[1.0, 0.0]]
     """
 
     def __init__(

@@ -19,7 +19,7 @@ class TriSurface:
     Parameters
     ----------
     vertices : (n, 3) array_like of float
-        Coordinates.
+        Coordinates, in any unit of length; all lengths and areas are in it and its square.
     faces : (m, 3) array_like of int
         Corner vertices, counter-clockwise seen from outside.
     trusted : bool, optional
@@ -29,6 +29,24 @@ class TriSurface:
     ------
     SurfaceError
         If the arrays are anything else; it names the offending elements.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solvers.surface import TriSurface
+    >>> corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    >>> surface = TriSurface(corners, [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> surface.n_vertices, surface.n_faces, surface.euler_characteristic, surface.genus
+    (4, 4, 2, 0)
+    >>> bool(np.isclose(surface.area, 3 / 2 + np.sqrt(3) / 2))
+    True
+    >>> round(float(surface.angle_defects.sum() / np.pi), 6)  # Gauss-Bonnet: 2 pi chi
+    4.0
+    >>> surface.position(surface.closest_point([1, 1, 1])).round(3).tolist()
+    [0.333, 0.333, 0.333]
+    >>> TriSurface([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 1, 2]])
+    Traceback (most recent call last):
+    solvers.errors.SurfaceError: 1 degenerate triangle without area (triangles 0): ...
     """
 
     def __init__(

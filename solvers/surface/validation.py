@@ -13,12 +13,15 @@ from solvers.errors import SurfaceError
 from solvers.surface.triangulation import FloatArray, IntArray, next_halfedge
 
 LARGEST = 1e100
-"""Bound of all coordinates and lengths: the products of three or more must not overflow."""
+"""Bound of all coordinates and lengths, in the surface's unit.
+
+From the range of double precision, 1.8e308: the products of three must not overflow.
+"""
 
 DEGENERATE = 1e-7
-"""Twice the area over the squared longest edge below which a triangle counts as degenerate.
+"""Twice the area over the squared longest edge, a pure number, at which a triangle is degenerate.
 
-The square of the flatness, 1e-14, is what edge lengths in double precision can still tell from 0.
+From double precision: its square, 1e-14, is what edge lengths can still tell from 0.
 """
 
 
@@ -37,6 +40,17 @@ def problems(vertices: FloatArray, faces: IntArray) -> tuple[SurfaceError, ...]:
     tuple of SurfaceError
         Empty for a good surface; the first is the one to mend first. Checks that need sound
         indices are left out when indices are not sound.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solvers.surface import problems
+    >>> vertices = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]])
+    >>> problems(vertices, np.array([[0, 1, 2], [2, 1, 3]]))
+    ()
+    >>> (problem,) = problems(vertices, np.array([[0, 1, 2], [1, 2, 3]]))  # one is turned over
+    >>> problem.what, problem.kind, problem.elements.tolist()
+    ('neighbouring triangles are oriented against each other at 1 edges', 'edges', [[1, 2]])
     """
     broken = tuple(array_problems(vertices, faces))
     if broken:

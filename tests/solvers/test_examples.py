@@ -1,0 +1,64 @@
+"""Every public name of the numerics is documented, and what its examples say is true."""
+
+import doctest
+import inspect
+import pkgutil
+from collections.abc import Callable
+from functools import cached_property
+from importlib import import_module
+from types import FunctionType
+from typing import Any
+
+import pytest
+from numpydoc.docscrape import get_doc_object
+from numpydoc.validate import validate
+
+import solvers
+
+PACKAGES = [m.name for m in pkgutil.iter_modules(solvers.__path__) if m.ispkg]
+ROOMS = [import_module(f"solvers.{name}") for name in PACKAGES] + [solvers]
+
+EXPORTED: dict[int, tuple[str, Callable[..., Any]]] = {
+    id(thing): (f"{room.__name__}.{name}", thing)
+    for room in ROOMS
+    for name in getattr(room, "__all__", ())
+    if callable(thing := getattr(room, name))
+}
+"""Each exported function and class once, with the shortest name to import it by."""
+
+METHOD = {"GL03", "GL06", "GL07", "GL08", "SS01", "SS03", "PR01", "PR02", "PR03", "PR04", "PR07"}
+"""What numpydoc must not find in a method: undocumented parameters, an unreadable text."""
+
+PUBLIC = METHOD | {"RT01", "RT03", "EX01"}
+"""Nor what is missing in an exported name: what it returns, and examples."""
+
+each_exported = pytest.mark.parametrize(
+    "thing", [thing for _, thing in EXPORTED.values()], ids=[name for name, _ in EXPORTED.values()]
+)
+
+
+@each_exported
+def test_its_examples_say_what_is_true(thing: Callable[..., Any]) -> None:
+    runner = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS)
+    for test in doctest.DocTestFinder().find(thing, thing.__name__, globs={}):
+        runner.run(test, out=lambda text: pytest.fail(text, pytrace=False))
+    assert runner.tries
+
+
+@each_exported
+def test_it_is_documented(thing: Callable[..., Any]) -> None:
+    wrong = {"": faults(thing, PUBLIC)}
+    wrong |= {name: faults(member, METHOD) for name, member in members(thing).items()}
+    assert not {name: texts for name, texts in wrong.items() if texts}
+
+
+def members(thing: object) -> dict[str, object]:
+    """The public methods and properties that a class defines itself."""
+    kinds = (FunctionType, classmethod, staticmethod, property, cached_property)
+    found = vars(thing) if inspect.isclass(thing) else {}
+    return {k: v for k, v in found.items() if isinstance(v, kinds) and not k.startswith("_")}
+
+
+def faults(thing: object, codes: set[str]) -> list[str]:
+    """What those checks of numpydoc find in a docstring."""
+    return [text for code, text in validate(get_doc_object(thing))["errors"] if code in codes]
