@@ -1,1 +1,7 @@
 """Finite element matrices, their assembly, and the one place that solves with them."""
+
+from __future__ import annotations
+
+from solvers.algebra.operators import crouzeix_raviart, laplacian, lumped_mass, stiffness
+
+__all__ = ["crouzeix_raviart", "laplacian", "lumped_mass", "stiffness"]

@@ -1,1 +1,8 @@
 """Feature edges: sharp or marked edges inside a surface that crosses are to follow."""
+
+from __future__ import annotations
+
+from solvers.features.edges import FeatureCurve, Features, no_features
+from solvers.features.sharp_edges import dihedral_angles, sharp_edges
+
+__all__ = ["FeatureCurve", "Features", "dihedral_angles", "no_features", "sharp_edges"]

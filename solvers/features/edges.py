@@ -19,13 +19,22 @@ from solvers.surface.triangulation import FloatArray, IntArray, next_halfedge, p
 from solvers.surface.trisurface import TriSurface, barycentric
 
 ON_SIDE = 1e-7
-"""Weight of a corner of a triangle below which a place lies on the side opposite."""
+"""Weight of a corner of a triangle, from 0 to 1, below which a place lies on the side opposite.
+
+Chosen, well above rounding and below `refinement.SNAP`.
+"""
 
 NARROW = np.radians(30)
-"""Angle between two features that leaves no room for a quad."""
+"""Angle between two features that leaves no room for a quad, radians.
+
+Chosen below the 45 degrees up to which no quad is nearer to the angle than one, to drop few.
+"""
 
 SHARP_TURN = np.pi / 4 * (1 + TIE)
-"""By how much a curve may turn at a vertex and still go on, radians."""
+"""By how much a curve may turn at a vertex and still go on, radians.
+
+From theory: beyond half a quarter turn three quads, or one, fit its angle better than two.
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,6 +47,19 @@ class FeatureCurve:
         Its edges in order, as positions in `Features.edges`.
     vertices : (k + 1,) int array
         Its vertices in order; the first again at the end if closed.
+
+    Examples
+    --------
+    The middle circle of an annulus:
+
+    >>> import numpy as np
+    >>> from solvers.features import Features
+    >>> from solvers.primitives import annulus
+    >>> surface = annulus(n=12)  # four circles of 12 vertices
+    >>> on_circle = (surface.edges // 12 == 1).all(axis=1)
+    >>> (curve,) = Features(surface, np.flatnonzero(on_circle)).curves
+    >>> len(curve.members), len(curve.vertices), curve.closed
+    (12, 13, True)
     """
 
     members: IntArray
@@ -59,6 +81,19 @@ class Features:
         Where.
     edges : (k,) int array
         Their numbers among the surface's edges, ascending; none on the boundary.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solvers.features import Features
+    >>> from solvers.primitives import square
+    >>> surface = square(n=4, size=2.0)  # the vertices 10 to 14 lie on the x axis
+    >>> on_axis = (surface.vertices[surface.edges][:, :, 1] == 0).all(axis=1)
+    >>> features = Features(surface, np.flatnonzero(on_axis))
+    >>> len(features), np.sort(features.ends).tolist()
+    (4, [[10, 11], [11, 12], [12, 13], [13, 14]])
+    >>> features.corners.tolist(), [curve.vertices.tolist() for curve in features.curves]
+    ([10, 14], [[10, 11, 12, 13, 14]])
     """
 
     surface: TriSurface
@@ -180,7 +215,13 @@ class Features:
         return FeatureCurve(members, np.concatenate([first, between, last]))
 
     def united(self, edges: IntArray) -> Features:
-        """Return these and further edges; those on the boundary are left out."""
+        """Return these and further edges; those on the boundary are left out.
+
+        Parameters
+        ----------
+        edges : (l,) int array
+            Among the surface's edges.
+        """
         inner = edges[self.surface.edge_faces[edges, 1] >= 0]
         return Features(self.surface, np.union1d(self.edges, inner))
 
@@ -241,6 +282,19 @@ def no_features(surface: TriSurface) -> Features:
     ----------
     surface : TriSurface
         Where.
+
+    Returns
+    -------
+    Features
+        Of no edges.
+
+    Examples
+    --------
+    >>> from solvers.features import no_features
+    >>> from solvers.primitives import square
+    >>> features = no_features(square(n=2))
+    >>> len(features), features.curves
+    (0, ())
     """
     return Features(surface, np.empty(0, dtype=np.int64))
 

@@ -9,7 +9,7 @@ from solvers.surface.triangulation import FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface
 
 FLAT = np.radians(160)
-"""Largest angle of a triangle that is next to flat."""
+"""Largest angle of a triangle that is next to flat, radians. Chosen."""
 
 
 def dihedral_angles(surface: TriSurface) -> FloatArray:
@@ -24,6 +24,18 @@ def dihedral_angles(surface: TriSurface) -> FloatArray:
     -------
     (ne,) float array
         Angle between the normals of both triangles, radians; 0 on the boundary.
+
+    Examples
+    --------
+    A regular tetrahedron bends by the angle whose cosine is -1/3 over each edge:
+
+    >>> import numpy as np
+    >>> from solvers.features import dihedral_angles
+    >>> from solvers.surface import TriSurface
+    >>> corners = [[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]
+    >>> tetrahedron = TriSurface(corners, [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]])
+    >>> np.cos(dihedral_angles(tetrahedron)).round(6).tolist()
+    [-0.333333, -0.333333, -0.333333, -0.333333, -0.333333, -0.333333]
     """
     left, right = surface.edge_faces.T
     one, other = surface.face_normals[left], surface.face_normals[right]
@@ -50,6 +62,23 @@ def sharp_edges(surface: TriSurface, degrees: float) -> IntArray:
     -------
     (k,) int array
         Among the surface's edges.
+
+    Examples
+    --------
+    A square sheet folded by 90 degrees along the y axis:
+
+    >>> import numpy as np
+    >>> from solvers.features import dihedral_angles, sharp_edges
+    >>> from solvers.primitives import square
+    >>> from solvers.surface import TriSurface
+    >>> flat = square(n=4)
+    >>> x, y, _ = flat.vertices.T
+    >>> roof = TriSurface(np.stack([x, y, -np.abs(x)], axis=1), flat.faces)
+    >>> edges = sharp_edges(roof, degrees=40)
+    >>> np.degrees(dihedral_angles(roof)[edges]).round(6).tolist()
+    [90.0, 90.0, 90.0, 90.0]
+    >>> bool((roof.vertices[roof.edges[edges], 0] == 0).all())
+    True
     """
     sharp = dihedral_angles(surface) > np.radians(degrees)
     angles = surface.triangulation.angles

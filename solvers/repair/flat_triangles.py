@@ -11,8 +11,13 @@ from solvers.surface.triangulation import BoolArray, FloatArray, IntArray, next_
 from solvers.surface.validation import HalfedgePairs, counted, degenerate_faces
 
 COINCIDENT = 1e-6
-"""Distance of vertices that count as one, in diagonals of the bounding box (single precision)."""
+"""Distance of vertices that count as one, in diagonals of the bounding box.
+
+From single precision, in which many formats store coordinates: ten of its roundings.
+"""
+
 ROUNDS = 20
+"""How often flat triangles are looked for again after mending some. Chosen."""
 
 
 def merge_coincident(points: FloatArray, triangles: IntArray) -> tuple[FloatArray, IntArray, str]:

@@ -27,11 +27,19 @@ from solvers.surface.validation import (
 class Repaired:
     """A surface, and what was done to the arrays it comes from.
 
-    Attributes
+    Parameters
     ----------
     surface : TriSurface
-    notes : tuple of str
+        The surface.
+    notes : tuple of str, optional
         One for each change, in plain words.
+
+    Examples
+    --------
+    >>> from solvers.repair import repair
+    >>> repaired = repair([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    >>> repaired.surface.n_faces, repaired.notes  # nothing had to be done
+    (1, ())
     """
 
     surface: TriSurface
@@ -65,11 +73,28 @@ def repair(
     component : int, "largest" or None, optional
         Keep one connected component, numbered from the largest, 0, down.
 
+    Returns
+    -------
+    Repaired
+        The surface, and what it took.
+
     Raises
     ------
     SurfaceError
         What still keeps the arrays from being one oriented manifold surface. Its elements are
         numbered as in the arrays given, unless `merge`, `aggressive` or `component` changed them.
+
+    Examples
+    --------
+    >>> from solvers.repair import repair
+    >>> vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [9, 9, 9]]
+    >>> repaired = repair(vertices, [[0, 1, 2], [1, 2, 3]])
+    >>> for note in repaired.notes:
+    ...     print(note)
+    dropped 1 unused vertex
+    turned 1 triangle to agree with the others
+    >>> repaired.surface.n_vertices
+    4
     """
     points, triangles, notes = _mended(vertices, faces, merge, aggressive)
     if component is not None:
@@ -85,8 +110,30 @@ def repair_each(
 
     Parameters
     ----------
-    vertices, faces, merge, aggressive
-        As of `repair`; so are the errors raised.
+    vertices : (n, 3) array_like of float
+        Coordinates.
+    faces : (m, 3) array_like of int
+        Corner vertices.
+    merge, aggressive : bool, optional
+        As of `repair`.
+
+    Returns
+    -------
+    tuple of Repaired
+        Each with all notes.
+
+    Raises
+    ------
+    SurfaceError
+        As of `repair`.
+
+    Examples
+    --------
+    >>> from solvers.repair import repair_each
+    >>> vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [5, 0, 0], [6, 0, 0], [5, 1, 0]]
+    >>> pieces = repair_each(vertices, [[4, 5, 6], [0, 1, 2], [2, 1, 3]])
+    >>> [piece.surface.n_faces for piece in pieces]
+    [2, 1]
     """
     points, triangles, notes = _mended(vertices, faces, merge, aggressive)
     of_face = face_components(len(points), triangles)
