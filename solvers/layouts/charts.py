@@ -16,7 +16,10 @@ from solvers.surface.triangulation import IntArray, IntrinsicTriangulation, prev
 ComplexArray = npt.NDArray[np.complex128]
 
 QUARTER = np.pi / 2
+"""A quarter turn, radians."""
+
 AXES = np.array([1, 1j, -1, -1j])
+"""The directions of the cross in a chart, as complex numbers, in quarter turns from the first."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -20,14 +20,15 @@ from solvers.layouts.stops import Stops, left_of, stops
 from solvers.layouts.tracing import trace
 
 EXACT = 1e-6
-"""How far beside a node a trace meets it, in typical edges of the map."""
+"""How far beside a node a trace meets it, in typical edges of the map. Chosen, above rounding."""
 
 LONGEST, SHORTEST = 4.0, 0.06
 """Length at which a trace counts as a limit cycle, in diameters of the map, and the least to which
-it is reduced where the layout would become too fine."""
+it is reduced where the layout would become too fine. Chosen.
+"""
 
 CROSSINGS = 2
-"""Crossings for each trace, beside a hundred for all, that make a layout too fine."""
+"""Crossings for each trace, beside a hundred for all, that make a layout too fine. Chosen."""
 
 
 class Drawing:

@@ -14,13 +14,16 @@ from solvers.surface.triangulation import IntArray
 from solvers.surface.trisurface import TriSurface
 
 LITTLE = np.radians(2)
-"""By how much the map may turn crosses that were turned before it was made."""
+"""By how much the map may turn crosses that were turned before it was made, radians. Chosen."""
 
 MOST = 50
-"""Separatrices that are joined at once."""
+"""Separatrices that are joined at once. Chosen: each needs a solve."""
 
 SPOILT = 0.03
-"""Distance of a map from what the field asks for beyond which separatrices are not joined."""
+"""Distance of a map from what the field asks for, relative, beyond which nothing is joined.
+
+Chosen; measured on annuli of 4 000 to 12 000 triangles, without any join: 0.01 to 0.027.
+"""
 
 
 class JoinedMap:

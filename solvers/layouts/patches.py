@@ -14,7 +14,7 @@ from solvers.surface.triangulation import FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface
 
 COARSEST, FINEST = 16, 64
-"""Cells along a side of a patch."""
+"""Cells along a side of a patch, at least and at most. Chosen, for smooth and quick pictures."""
 
 
 @dataclass(frozen=True, eq=False)

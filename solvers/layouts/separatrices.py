@@ -20,7 +20,10 @@ SINGULARITY, BOUNDARY, T_JUNCTION, OPEN = range(4)
 """Where a separatrix ends; `OPEN`: nowhere, it was cut for its length."""
 
 LONGEST = 6.0
-"""Length at which a curve along a field is given up, in square roots of the area in the map."""
+"""Length at which a curve along a field is given up, in square roots of the area in the map.
+
+Chosen.
+"""
 
 
 @dataclass(frozen=True, eq=False)

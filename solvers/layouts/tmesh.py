@@ -35,6 +35,25 @@ class TMesh:
         Side j of rectangle r is ``side_halfarcs[side_offsets[4 r + j]:side_offsets[4 r + j + 1]]``.
     side_halfarcs : (K,) int array
         Counter-clockwise, the rectangle on their left.
+
+    Examples
+    --------
+    One rectangle of 2 by 1; its corners are the nodes, its sides the arcs:
+
+    >>> import numpy as np
+    >>> from solvers.layouts import TMesh
+    >>> tmesh = TMesh(
+    ...     arcs=np.array([[0, 1], [1, 2], [2, 3], [3, 0]]),
+    ...     lengths=np.array([2.0, 1.0, 2.0, 1.0]),
+    ...     arc_on_boundary=np.ones(4, dtype=bool),
+    ...     node_valence=np.full(4, 2),
+    ...     critical=np.ones(4, dtype=bool),
+    ...     node_on_boundary=np.ones(4, dtype=bool),
+    ...     side_offsets=np.arange(5),
+    ...     side_halfarcs=np.array([0, 2, 4, 6]),
+    ... )
+    >>> tmesh.n_rectangles, tmesh.area, tmesh.side_totals(tmesh.lengths).tolist()
+    (1, 2.0, [[2.0, 1.0, 2.0, 1.0]])
     """
 
     arcs: IntArray
@@ -62,12 +81,31 @@ class TMesh:
         return len(self.side_offsets) // 4
 
     def side(self, rectangle: int, number: int) -> IntArray:
-        """Return the half-arcs of one side (0 to 3) of a rectangle."""
+        """Return the half-arcs of one side of a rectangle.
+
+        Parameters
+        ----------
+        rectangle : int
+            Which.
+        number : {0, 1, 2, 3}
+            Of the side.
+        """
         at = 4 * rectangle + number
         return self.side_halfarcs[self.side_offsets[at] : self.side_offsets[at + 1]]
 
     def side_totals(self, values: FloatArray) -> FloatArray:
-        """Return the sums (R, 4) over the sides of rectangles of values (A,) of arcs."""
+        """Return the sums over the sides of rectangles of values of arcs.
+
+        Parameters
+        ----------
+        values : (A,) float array
+            One for each arc.
+
+        Returns
+        -------
+        (R, 4) float array
+            One for each side.
+        """
         running = np.concatenate([[0.0], np.cumsum(values[self.side_halfarcs // 2])])
         return np.asarray(np.diff(running[self.side_offsets])).reshape(-1, 4)
 

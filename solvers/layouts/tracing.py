@@ -27,7 +27,10 @@ NODE, BORDER, LENGTH = range(3)
 """How a trace ends: at a node, at the boundary, or for its length."""
 
 GRAZING = 1e-3
-"""Where on an edge, from its end, a trace leaves that the next cross does not let in."""
+"""Where on an edge, from its end, a trace leaves that the next cross does not let in.
+
+A share of the edge's length. Chosen.
+"""
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,7 +13,10 @@ from solvers.quads.collapse import Cut
 from solvers.surface.triangulation import FloatArray, IntArray
 
 WINDOWS = (8.0, 64.0, np.inf)
-"""How far from what is wanted counts are looked for; nearer ones are found much faster."""
+"""How far from what is wanted counts are looked for, in quads, one after the other.
+
+Chosen: near ones are found much faster.
+"""
 
 
 def balances(tmesh: TMesh) -> csr_array:

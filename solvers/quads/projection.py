@@ -9,7 +9,10 @@ from solvers.surface.triangulation import FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface, closest_barycentric
 
 FARTHER = 1e-13
-"""In diagonals of the surface: nearer by less than this is not nearer."""
+"""Difference of distances, in diagonals of the surface, that counts as none.
+
+Chosen, above rounding: without, places on an edge would walk to and fro over it.
+"""
 
 
 class Projection:

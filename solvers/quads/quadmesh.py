@@ -15,7 +15,9 @@ from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface
 
 ON_EDGE = 1e-9
-"""Weight of a corner below which a place is on the edge across."""
+"""Weight of a corner, from 0 to 1, below which a place is on the edge across. Chosen, well above
+rounding.
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -229,6 +231,23 @@ def scaled_jacobian(corners: FloatArray, outward: FloatArray) -> FloatArray:
     (...) float array
         1 for a rectangle, 0 or less for a quad that is folded, turned over or has a side without
         length.
+
+    Notes
+    -----
+    The verdict of Knupp 2000 on each corner, with the normal that the quad's diagonals span.
+
+    Examples
+    --------
+    A rhombus with angles of 60 and 120 degrees, seen from above and from below:
+
+    >>> import numpy as np
+    >>> from solvers.quads import scaled_jacobian
+    >>> height = np.sqrt(3) / 2
+    >>> rhombus = np.array([[0, 0, 0], [1, 0, 0], [1.5, height, 0], [0.5, height, 0]])
+    >>> for outward in (1.0, -1.0):
+    ...     print(round(float(scaled_jacobian(rhombus, np.array([0, 0, outward]))), 6))
+    0.866025
+    -0.866025
     """
     ahead = np.roll(corners, -1, axis=-2) - corners
     ahead /= np.maximum(np.linalg.norm(ahead, axis=-1), 1e-300)[..., None]

@@ -25,16 +25,19 @@ MOST_QUADS = 5_000_000
 """Finer meshes are not made."""
 
 NEAR_ENOUGH = 0.01
-"""Relative distance from a wanted number of quads at which looking further ends."""
+"""Relative distance from a wanted number of quads at which looking further ends. Chosen."""
 
 FAR = 1.5
-"""So many times the wanted number, twice, is the least that there is."""
+"""So many times the wanted number, found twice, is the least that there is. Chosen."""
 
 STRAIGHTENING = 0.2
-"""Share of the time limit for counts that are nearest with `offsets`, besides those without."""
+"""Share of the time limit for counts that are nearest with `offsets`, besides those without.
+
+Chosen.
+"""
 
 MOST_TRIALS = 8
-"""Programs solved at most for a wanted number of quads."""
+"""Programs solved at most for a wanted number of quads. Chosen."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +57,22 @@ class Quantization:
         length make of them.
     optimal : bool
         False if time was up before the counts were known to be the best.
+
+    Examples
+    --------
+    A rectangle of 2 by 1, as in `solvers.layouts.TMesh`; no whole number is 1 / 0.7 or 2 / 0.7:
+
+    >>> import numpy as np
+    >>> from solvers.layouts import TMesh
+    >>> from solvers.quads import quantize
+    >>> every, ends = np.ones(4, dtype=bool), np.array([[0, 1], [1, 2], [2, 3], [3, 0]])
+    >>> lengths, sides = np.array([2.0, 1.0, 2.0, 1.0]), 2 * np.arange(4)
+    >>> tmesh = TMesh(ends, lengths, every, np.full(4, 2), every, every, np.arange(5), sides)
+    >>> chosen = quantize(tmesh, 0.7)
+    >>> chosen.counts.tolist(), chosen.optimal
+    ([3, 1, 3, 1], True)
+    >>> round(chosen.deviation, 6) == round(2 * (3 - 2 / 0.7) + 2 * (1 / 0.7 - 1), 6)
+    True
     """
 
     counts: IntArray
@@ -80,12 +99,31 @@ def quantize(
     time_limit : float, optional
         Seconds after which the best counts found are taken.
 
+    Returns
+    -------
+    Quantization
+        The same number on opposite sides of every rectangle.
+
     Raises
     ------
     CrossviewError
         If the edge length is not positive, or makes more than `MOST_QUADS` quads.
     SolveError
         If time was up before any counts were found.
+
+    Examples
+    --------
+    A rectangle of 2 by 1, as in `solvers.layouts.TMesh`:
+
+    >>> import numpy as np
+    >>> from solvers.layouts import TMesh
+    >>> from solvers.quads import quantize
+    >>> every, ends = np.ones(4, dtype=bool), np.array([[0, 1], [1, 2], [2, 3], [3, 0]])
+    >>> lengths, sides = np.array([2.0, 1.0, 2.0, 1.0]), 2 * np.arange(4)
+    >>> tmesh = TMesh(ends, lengths, every, np.full(4, 2), every, every, np.arange(5), sides)
+    >>> chosen = quantize(tmesh, edge_length=0.5)
+    >>> chosen.counts.tolist(), chosen.n_quads
+    ([4, 2, 4, 2], 8)
     """
     cuts: list[Cut] = []
     found = _nearest(tmesh, edge_length, collapse, time_limit, cuts)
@@ -108,10 +146,31 @@ def quantize_to(
     time_limit : float, optional
         Seconds after which the best counts found are taken.
 
+    Returns
+    -------
+    Quantization
+        With the edge length that makes them, in units of the map.
+
     Raises
     ------
     CrossviewError
         If fewer than one or more than `MOST_QUADS` quads are wanted.
+    SolveError
+        As of `quantize`.
+
+    Examples
+    --------
+    A rectangle of 2 by 1, as in `solvers.layouts.TMesh`:
+
+    >>> import numpy as np
+    >>> from solvers.layouts import TMesh
+    >>> from solvers.quads import quantize_to
+    >>> every, ends = np.ones(4, dtype=bool), np.array([[0, 1], [1, 2], [2, 3], [3, 0]])
+    >>> lengths, sides = np.array([2.0, 1.0, 2.0, 1.0]), 2 * np.arange(4)
+    >>> tmesh = TMesh(ends, lengths, every, np.full(4, 2), every, every, np.arange(5), sides)
+    >>> chosen = quantize_to(tmesh, 200)
+    >>> chosen.counts.tolist(), round(chosen.edge_length, 6)
+    ([20, 10, 20, 10], 0.1)
     """
     if not 1 <= n_quads <= MOST_QUADS:
         raise CrossviewError(

@@ -10,7 +10,7 @@ from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface
 
 SHARP = np.radians(30.0)
-"""A rail that turns by more than this at a vertex has a corner there."""
+"""Turn of a rail at a vertex, radians, beyond which it has a corner there. Chosen."""
 
 
 class Rail:

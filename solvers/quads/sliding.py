@@ -12,7 +12,10 @@ from solvers.quads.rails import Rail
 from solvers.surface.triangulation import FloatArray, IntArray
 
 REACH = 0.4
-"""Share of the gap to its neighbour on the rail that a vertex may cross in one step."""
+"""Share of the gap to its neighbour on the rail that a vertex may cross in one step.
+
+Less than a half, so that two neighbours never pass each other.
+"""
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,25 +21,31 @@ from solvers.quads.untangling import POOR, improve_worst
 from solvers.surface.triangulation import FloatArray, IntArray
 
 ROUNDS = 30
-"""How often all vertices move."""
+"""How often all vertices move. Chosen."""
 
 STAGES = 3
-"""Such rounds at most, poor quads improved one by one after each."""
+"""How often these rounds are run at most, poor quads improved one by one after each. Chosen."""
 
 PULL = 0.3
-"""How much of a rectangle's sides, in logarithms, is what they were at first."""
+"""How much of a rectangle's sides, in logarithms, is what they were at first: 0 none, 1 all.
+
+Chosen.
+"""
 
 WORST = 0.1
-"""What the worst quad counts beside the mean of all, when rounds are compared."""
+"""What the worst quad counts beside the mean of all, when rounds are compared. Chosen."""
 
 PATIENCE, LITTLE = 5, 1e-4
-"""Rounds without as much improvement, after which no more are tried."""
+"""Rounds that each gain less than so little quality, after which no more are tried. Chosen."""
 
 ON_RAIL = 1e-9
-"""Distance from a rail, in diagonals of the surface, that counts as none."""
+"""Distance from a rail, in diagonals of the surface, that counts as none.
+
+Chosen, above rounding.
+"""
 
 RETREATS = 10
-"""How often vertices around spoilt quads are put back before a round is given up."""
+"""How often vertices around spoilt quads are put back before a round is given up. Chosen."""
 
 
 def smooth(

@@ -13,7 +13,7 @@ from solvers.quads.integer_program import arcs_alone, balances, nearest_counts
 from solvers.surface.triangulation import FloatArray, IntArray
 
 MOST_ROUNDS = 40
-"""How often what the nearest counts break is ruled out, before longest arcs get an edge."""
+"""How often what the nearest counts break is ruled out, before longest arcs get an edge. Chosen."""
 
 
 def unbroken(
