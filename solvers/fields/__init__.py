@@ -1,1 +1,10 @@
 """Cross-fields: isotropic, aligned, anisotropic, natural, and what they are worth."""
+
+from __future__ import annotations
+
+from solvers.fields.connection import Condition
+from solvers.fields.crossfield import Convergence, CrossField
+from solvers.fields.holonomy import Holonomy
+from solvers.fields.isotropic import IsotropicSolver
+
+__all__ = ["Condition", "Convergence", "CrossField", "Holonomy", "IsotropicSolver"]

@@ -17,11 +17,12 @@ from solvers.surface.triangulation import FloatArray, IntArray, IntrinsicTriangu
 from solvers.surface.trisurface import TriSurface
 
 QUARTER = np.pi / 2
+"""A quarter turn, radians."""
 
 CLEARANCE = 1e-6
 """Least barycentric weight of a point in a triangle, for no part of a split to be without area.
 
-A point with two weights below is on the vertex.
+Chosen, above what rounding makes of angles. A point with two weights below is on the vertex.
 """
 
 
@@ -39,6 +40,15 @@ class Condition:
         Vertices of the loop or boundary, the first repeated at the end.
     halfedge : int
         Where it is read off: a halfedge of the loop or boundary.
+
+    Examples
+    --------
+    >>> from solvers.fields import IsotropicSolver
+    >>> from solvers.primitives import annulus, torus
+    >>> for surface in (annulus(n=24), torus(n=12)):
+    ...     print([c.label for c in IsotropicSolver(surface).holonomy.conditions])
+    ['around the inner boundary']
+    ['handle 1, first loop', 'handle 1, second loop']
     """
 
     kind: Literal["boundary", "loop"]

@@ -23,6 +23,12 @@ class Convergence:
         E at the start and after each iteration.
     converged : bool
         Whether the iteration reached its goal; if not, the field is the best iterate.
+
+    Examples
+    --------
+    >>> from solvers.fields import Convergence
+    >>> Convergence()  # of a field that needs no iteration
+    Convergence(energies=(), converged=True)
     """
 
     energies: tuple[float, ...] = ()
@@ -64,6 +70,23 @@ class CrossField:
         How the solver came to E.
     feature_misalignment : (c,) float array
         Largest angle between the crosses and each feature curve, with sign, radians.
+
+    Examples
+    --------
+    Around an annulus the crosses follow the circles, and quads grow with their radius, e^H = c r:
+
+    >>> import numpy as np
+    >>> from solvers.fields import IsotropicSolver
+    >>> from solvers.primitives import annulus
+    >>> surface = annulus(n=48)
+    >>> field = IsotropicSolver(surface).solve([])
+    >>> size = np.exp(field.H) / np.linalg.norm(surface.vertices, axis=1)
+    >>> float(size.max() / size.min()) < 1.003  # less by four if n is twice as large
+    True
+    >>> radial = surface.barycentres / np.linalg.norm(surface.barycentres, axis=1)[:, None]
+    >>> away = np.abs((field.u * radial).sum(axis=1))  # a cross has a branch along the radius
+    >>> bool(np.minimum(away, 1 - away).max() < 1e-9)
+    True
     """
 
     surface: TriSurface

@@ -36,6 +36,24 @@ class Holonomy:
         Of the stiffness matrix without its first row and column.
     corners : mapping of int to int
         Index of each boundary vertex where the field turns.
+
+    Examples
+    --------
+    On an annulus the defect is the sum of indices times polar angles, over four:
+
+    >>> import numpy as np
+    >>> from solvers.fields import IsotropicSolver
+    >>> from solvers.primitives import annulus
+    >>> from solvers.singularities import Singularity
+    >>> surface = annulus(n=24)
+    >>> holonomy = IsotropicSolver(surface).holonomy
+    >>> three = Singularity(surface.closest_point([0.8, 0.0, 0.0]), 3)
+    >>> for place in ([0.5, 0.0, 0.0], [0.0, 0.5, 0.0], [-0.5, 0.0, 0.0]):
+    ...     five = Singularity(surface.closest_point(place), 5)
+    ...     print(np.round(np.degrees(holonomy.defects([three, five])), 6) + 0.0)
+    [0.]
+    [-22.5]
+    [45.]
     """
 
     def __init__(

@@ -20,17 +20,19 @@ from solvers.maps.closed_images import ClosestImages, Conditions, Joining, Seaml
 from solvers.surface.triangulation import FloatArray, IntrinsicTriangulation
 
 LEAST_WEIGHT = 0.05
-"""Edges opposite right or obtuse angles still count this much, in cotangents."""
+"""Edges opposite right or obtuse angles still count this much, in cotangents. Chosen."""
 
 STIFFER, ROUNDS, PATIENCE = 5.0, 6, 2
 """Growth of the weight of triangles turned over, how often it grows at most, and how often in vain.
+
+Chosen.
 """
 
 FEW = 5
-"""Triangles that joining may turn over before they are mended."""
+"""Triangles that joining may turn over before they are mended. Chosen."""
 
 HOPELESS = 0.05
-"""Share of triangles turned over beyond which mending them is not tried."""
+"""Share of triangles turned over beyond which mending them is not tried. Chosen."""
 
 
 def seamless_map(integrated: IntegratedField) -> SeamlessMap:

@@ -21,10 +21,10 @@ from solvers.surface.triangulation import FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface
 
 EXACT = 1e-12
-"""When a defect counts as zero, radians."""
+"""Defect that counts as zero, radians. Chosen, some thousand times the rounding of an angle."""
 
 REFINEMENTS = 12
-"""How many steps take a crossing to where the potential says."""
+"""How many steps take a crossing to where the potential says. Chosen; regula falsi needs fewer."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,6 +37,15 @@ class LevelLines:
         The triangle of each piece.
     weights : (s, 2, 3) float array
         Barycentric weights of its two ends, on edges of the triangle.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solvers.primitives import square
+    >>> from solvers.validity import LevelLines
+    >>> piece = LevelLines(np.array([0]), np.array([[[0.5, 0.5, 0.0], [0.5, 0.0, 0.5]]]))
+    >>> piece.ends(square(n=2, size=2.0)).tolist()  # of triangle 0
+    [[[-0.5, -1.0, 0.0], [-0.5, -0.5, 0.0]]]
     """
 
     faces: IntArray
@@ -64,6 +73,26 @@ class Guide:
         The configuration, on the same surface.
     moving : int
         Which of them is to move.
+
+    Examples
+    --------
+    On an annulus a valence 5 fits a valence 3 where both lie on one ray:
+
+    >>> import numpy as np
+    >>> from solvers.fields import IsotropicSolver
+    >>> from solvers.primitives import annulus
+    >>> from solvers.singularities import Singularity
+    >>> from solvers.validity import Guide
+    >>> surface = annulus(n=24)
+    >>> three = Singularity(surface.closest_point([0.8, 0.0, 0.0]), 3)
+    >>> five = Singularity(surface.closest_point([-0.6, 0.0, 0.0]), 5)
+    >>> guide = Guide(IsotropicSolver(surface).holonomy, [three, five], moving=1)
+    >>> x, y, _ = guide.closing(0).ends(surface).reshape(-1, 3).T
+    >>> bool(x.min() > 0 and np.allclose(y, 0))
+    True
+    >>> nearest = guide.kept(0, surface.closest_point([0.5, 0.2, 0.0]))
+    >>> round(float(surface.position(nearest)[1]), 9) + 0.0
+    0.0
     """
 
     def __init__(
