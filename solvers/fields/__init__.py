@@ -6,5 +6,14 @@ from solvers.fields.connection import Condition
 from solvers.fields.crossfield import Convergence, CrossField
 from solvers.fields.holonomy import Holonomy
 from solvers.fields.isotropic import IsotropicSolver
+from solvers.fields.natural import CrossesStep, natural_singularities
 
-__all__ = ["Condition", "Convergence", "CrossField", "Holonomy", "IsotropicSolver"]
+__all__ = [
+    "Condition",
+    "Convergence",
+    "CrossField",
+    "CrossesStep",
+    "Holonomy",
+    "IsotropicSolver",
+    "natural_singularities",
+]

@@ -19,7 +19,7 @@ from solvers.progress import Progress
 from solvers.surface.triangulation import FloatArray
 
 LEAST_GAIN = 1e-4
-"""Relative fall of E below which an algorithm counts as having stopped falling."""
+"""Relative fall of E in an iteration below which it counts as having stopped. Chosen."""
 
 
 def alternate(

@@ -18,21 +18,29 @@ from solvers.progress import Progress
 from solvers.surface.triangulation import FloatArray
 
 PENALTY = 1e-7
-"""Augmented-Lagrangian penalty; with three passes a step solves J d = -rho to round-off."""
+"""Augmented-Lagrangian penalty, a pure number as E is.
+
+Measured: with three passes a step solves J d = -rho to round-off.
+"""
 
 PASSES, ROUNDING = 3, 1e-13
-"""Most passes, and how small a part of rho is left when no further one helps."""
+"""Most passes, and how small a part of rho is left when no further one helps. Measured; chosen."""
 
 TURN_LIMIT = 0.5
-"""Most that a step may turn a cross, radians."""
+"""Most that a step may turn a cross, radians. Chosen: less than the quarter turn's half."""
 
 CONVERGED = 1e-11
-"""E below which nothing but rounding is left."""
+"""E below which nothing but rounding is left. Chosen; measured at 109 000 triangles: 3e-14."""
 
 LEAST_GAIN = 1e-2
-"""Fall of the roughness, relative, below which sliding ends."""
+"""Fall of the roughness in a step, relative, below which sliding ends. Chosen."""
 
 SMOOTH_SCALES, SMOOTH_TURNS = 1e-2, 1e-3
+"""Weights in the metric in which a step is smallest: of the scales' stiffness beside their mass,
+and of the stiffness and mass of turns.
+
+Measured on annuli with defects of 0 to 44 degrees: E at rounding in 4 to 7 steps.
+"""
 
 
 @dataclass(frozen=True)
@@ -41,7 +49,7 @@ class NewtonStep(Progress):
 
     Parameters
     ----------
-    stage, fraction
+    stage, fraction : str, float
         As in `Progress`.
     energy : float
         E after the step.

@@ -22,9 +22,13 @@ from solvers.fields.holonomy import Holonomy
 from solvers.surface.triangulation import FloatArray, IntArray, wrap
 
 RIDGE = 1e-9
-"""Added to the energy, relative: turning all of a closed surface's crosses costs nothing."""
+"""Added to the energy, relative: turning all of a closed surface's crosses costs nothing.
+
+Chosen, above rounding and below what differs between integers.
+"""
 
 MOST_STEPS = 1000
+"""Single steps of the integers after rounding at most. Chosen; each lowers the energy."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -29,6 +29,7 @@ from solvers.surface.triangulation import BoolArray, FloatArray, IntArray, next_
 Pair = tuple[FloatArray, FloatArray]
 
 NO_FEATURES = np.empty(0, dtype=np.int64)
+"""Halfedges of features where there are none."""
 
 
 def norm(values: FloatArray) -> float:

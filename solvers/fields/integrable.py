@@ -20,12 +20,13 @@ from solvers.surface.trisurface import TriSurface
 LEFT_ALONE = 1e-3
 """E at which the aligned field is the isotropic one, valid as far as the mesh can tell.
 
-Defects of some hundredths of a degree are within the error of discretisation: a configuration made
-valid for the Delaunay operator has them for that of the surface's own triangles. Newton takes
-the E they leave; smoothing would only trade square quads for even sizes.
+Chosen. Defects of some hundredths of a degree are within the error of discretisation: a
+configuration made valid for the Delaunay operator has them for that of the surface's own
+triangles. Newton takes the E they leave; smoothing would only trade square quads for even sizes.
 """
 
 HOMOTOPY_STAGES = (2, 4, 8)
+"""Parts that the way from the isotropic to the aligned field is cut into, try after try. Chosen."""
 
 Iteration = Generator[Progress, None, Iterate]
 
@@ -36,7 +37,7 @@ class FieldStep(Progress):
 
     Parameters
     ----------
-    stage, fraction
+    stage, fraction : str, float
         As in `Progress`.
     energies : tuple of float
         E at the start and after each iteration so far.

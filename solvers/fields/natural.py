@@ -38,22 +38,26 @@ from solvers.surface.trisurface import TriSurface
 ComplexArray = npt.NDArray[np.complex128]
 
 METHODS = ("mbo", "ginzburg-landau", "globally-optimal")
+"""Names of the ways to smooth a cross-field."""
 
 ALIGNMENTS = ("smoothness", "curvature")
+"""Names of what the crosses are drawn towards."""
 
 CURVATURE_WEIGHT = 200.0
 """Of the pull towards principal directions against the smoothness, in parts of the area.
 
-Where they are as clear as on average, the crosses follow them over the fourteenth part of the
-surface's size.
+Chosen: where they are as clear as on average, the crosses follow them over the fourteenth part of
+the surface's size, the square root of its area over that of this weight.
 """
 
 ITERATIONS = 400
+"""Steps of a method at most. Chosen."""
+
 MOMENTUM = 0.9
-"""Share of the last change that is added before the next step (Polyak's heavy ball)."""
+"""Share of the last change that is added before the next step (Polyak's heavy ball). Chosen."""
 
 STILL = 1e-6
-"""Root mean square change of the crosses below which an iteration has ended."""
+"""Root mean square change of the crosses, unit numbers, that ends an iteration. Chosen."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,12 +66,27 @@ class CrossesStep(Progress):
 
     Parameters
     ----------
-    stage, fraction
+    stage, fraction : str, float
         As in `Progress`.
     surface : TriSurface
         Where.
     z : (ne,) complex array
         Fourth power of the cross at each edge's midpoint, in the direction of the edge.
+
+    Examples
+    --------
+    Crosses along the boundary at all edges of a square are the axes:
+
+    >>> import numpy as np
+    >>> from solvers.fields import CrossesStep
+    >>> from solvers.primitives import square
+    >>> surface = square(n=2)
+    >>> t = surface.triangulation
+    >>> along = np.diff(surface.vertices[surface.edges], axis=1)[:, 0, :2] @ [1, 1j]
+    >>> step = CrossesStep("by hand", 0.0, surface, (np.abs(along) / along) ** 4)
+    >>> u = step.field.u
+    >>> bool(np.allclose(np.abs(u).max(axis=1), 1.0))
+    True
     """
 
     surface: TriSurface
@@ -133,12 +152,27 @@ def natural_singularities(
     -------
     tuple of Singularity
         At inner vertices and in triangles; their indices and those of the default corners sum
-        to the budget.
+        to the budget. The result of the computation, for `solvers.run`.
 
     Raises
     ------
     CrossviewError
         If the method or the alignment is unknown, or the weight is negative or not finite.
+
+    Notes
+    -----
+    Viertel and Osting 2019 (MBO), Jezdimirovic et al. 2019 (Ginzburg-Landau), Knoeppel et al. 2013
+    (globally optimal, and the alignment with curvature).
+
+    Examples
+    --------
+    >>> from solvers import run
+    >>> from solvers.fields import natural_singularities
+    >>> from solvers.primitives import disk, square
+    >>> [s.valence for s in run(natural_singularities(disk(edge_length=0.2)))]
+    [3, 3, 3, 3]
+    >>> run(natural_singularities(square(n=8)))  # its corners are all it needs
+    ()
     """
     if method not in METHODS:
         raise CrossviewError(f'unknown method "{method}"', remedy=f"one of {', '.join(METHODS)}")

@@ -8,7 +8,10 @@ import numpy.typing as npt
 from solvers.surface.trisurface import TriSurface
 
 LEAST_DIFFERENCE = 0.1
-"""Mean of (k1 - k2)^2, in those of k1^2 + k2^2, below which little draws."""
+"""Mean of (k1 - k2)^2, in those of k1^2 + k2^2, below which little draws.
+
+Chosen, above the errors of a faceted sphere.
+"""
 
 
 def principal_crosses(surface: TriSurface) -> npt.NDArray[np.complex128]:
@@ -25,6 +28,10 @@ def principal_crosses(surface: TriSurface) -> npt.NDArray[np.complex128]:
         Fourth power of the cross at each edge's midpoint, in the direction of the edge, of length
         (k1 - k2)^2, so scaled that its mean square is about 1;
         next to 0 where the curvatures hardly differ anywhere.
+
+    Notes
+    -----
+    The shape operator from vertex normals, in each triangle (Rusinkiewicz 2004).
     """
     t = surface.triangulation
     normals = surface.vertex_normals[surface.faces]
