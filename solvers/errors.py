@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
+
 import numpy as np
 import numpy.typing as npt
+
+from solvers.remedies import Remedy, in_words
 
 
 class CrossviewError(Exception):
@@ -15,24 +19,48 @@ class CrossviewError(Exception):
         What is wrong.
     where : str, optional
         The file, element or setting it is wrong at.
-    remedy : str, optional
-        What to do about it.
+    advice : str, optional
+        What the user may do that no program can; nothing is decided by it.
+    remedies : iterable of Remedy, optional
+        What a program can do about it, the least change first.
     """
 
-    def __init__(self, what: str, where: str = "", remedy: str = "") -> None:
+    def __init__(
+        self, what: str, where: str = "", advice: str = "", *, remedies: Iterable[Remedy] = ()
+    ) -> None:
         self.what = what
         self.where = where
-        self.remedy = remedy
-        super().__init__(what, where, remedy)
+        self.advice = advice
+        self.remedies = tuple(remedies)
+        super().__init__(what, where, advice)
 
     def __str__(self) -> str:
-        """Return ``what (where): remedy`` without line breaks."""
+        """Return ``what (where): what to do`` without line breaks."""
+        return self.line()
+
+    def line(self, told: Callable[[Remedy], str] = lambda remedy: remedy.words) -> str:
+        """Return ``what (where): what to do`` without line breaks.
+
+        Parameters
+        ----------
+        told : callable, optional
+            The words of a remedy, such as those with the command that does it.
+        """
         line = self.what
         if self.where:
             line += f" ({self.where})"
-        if self.remedy:
-            line += f": {self.remedy}"
+        to_do = self.to_do(told)
+        if to_do:
+            line += f": {to_do}"
         return " ".join(line.split())
+
+    def to_do(self, told: Callable[[Remedy], str] = lambda remedy: remedy.words) -> str:
+        """Return the advice and the remedies in words; empty where there are none."""
+        return ", or ".join(part for part in (self.advice, in_words(self.remedies, told)) if part)
+
+    def locate(self, place: str) -> None:
+        """Name the larger place, such as the file, before where it is wrong."""
+        self.where = f"{place}, {self.where}" if self.where else place
 
 
 class SurfaceError(CrossviewError):
@@ -40,7 +68,7 @@ class SurfaceError(CrossviewError):
 
     Parameters
     ----------
-    what, where, remedy : str
+    what, where, advice, remedies
         As in `CrossviewError`.
     elements : array_like of int, optional
         Numbers of the offending faces, vertices or edges.
@@ -52,11 +80,13 @@ class SurfaceError(CrossviewError):
         self,
         what: str,
         where: str = "",
-        remedy: str = "",
+        advice: str = "",
         elements: npt.ArrayLike = (),
         kind: str = "",
+        *,
+        remedies: Iterable[Remedy] = (),
     ) -> None:
-        super().__init__(what, where, remedy)
+        super().__init__(what, where, advice, remedies=remedies)
         self.elements: npt.NDArray[np.int64] = np.asarray(elements, dtype=np.int64)
         self.kind = kind
 

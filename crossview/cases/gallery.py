@@ -54,5 +54,5 @@ def find_case(target: str) -> Case:
         return Case.load(path_of(target))
     if target in BUILTIN:
         return Case.from_json({"surface": {"builtin": target}})
-    remedy = nearest(target, {*names(), *BUILTIN})
-    raise CaseError("no such file, gallery case or built-in surface", target, remedy)
+    advice = nearest(target, {*names(), *BUILTIN})
+    raise CaseError("no such file, gallery case or built-in surface", target, advice)

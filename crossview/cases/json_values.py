@@ -18,7 +18,7 @@ class CaseError(CrossviewError):
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
-    """Remedy for an unknown `word`: the closest of `known`, or all of them."""
+    """Advice for an unknown `word`: the closest of `known`, or all of them."""
     names = sorted(known)
     close = difflib.get_close_matches(word, names, n=1)
     return f'did you mean "{close[0]}"?' if close else "known: " + ", ".join(names)
@@ -71,9 +71,9 @@ class JsonField:
         """File and location in one piece."""
         return f"{self.file}, {self.keys}" if self.keys else self.file
 
-    def error(self, what: str, remedy: str = "") -> CaseError:
+    def error(self, what: str, advice: str = "") -> CaseError:
         """The error that blames this value."""
-        return CaseError(what, self.where, remedy)
+        return CaseError(what, self.where, advice)
 
     def object(self, required: Iterable[str], optional: Iterable[str]) -> dict[str, JsonField]:
         """The members of an object that has all the `required` and only known keys."""

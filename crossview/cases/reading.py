@@ -76,8 +76,8 @@ def _builtin(name: JsonField, parameters: dict[str, JsonField]) -> Builtin:
     known = inspect.signature(BUILTIN[name.value]).parameters
     for key, value in parameters.items():
         if key not in known:
-            remedy = nearest(key, known)
-            raise value.error(f'the built-in "{name.value}" has no parameter "{key}"', remedy)
+            advice = nearest(key, known)
+            raise value.error(f'the built-in "{name.value}" has no parameter "{key}"', advice)
     return Builtin(name.value, {key: value.value for key, value in parameters.items()})
 
 
@@ -158,8 +158,8 @@ def _component(entry: JsonField) -> int | str:
     if not isinstance(entry.value, str):
         return entry.integer("component", least=0)
     if entry.value not in ("largest", "all"):
-        remedy = 'write "largest", "all" or a number (0 is the largest)'
-        raise entry.error(f'unknown component "{entry.value}"', remedy)
+        advice = 'write "largest", "all" or a number (0 is the largest)'
+        raise entry.error(f'unknown component "{entry.value}"', advice)
     return entry.value
 
 

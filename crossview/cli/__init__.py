@@ -11,6 +11,7 @@ from cyclopts import App, CycloptsError
 from crossview import __version__
 from crossview.cases.json_values import nearest
 from crossview.cli.complete import complete
+from crossview.cli.hints import with_command
 from crossview.cli.info import info
 from crossview.cli.make_valid import make_valid
 from crossview.cli.natural import natural
@@ -66,7 +67,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _refuse(error: CrossviewError) -> int:
-    complain(f"crossview: error: {error}")
+    complain(f"crossview: error: {error.line(with_command)}")
     return 2
 
 

@@ -62,9 +62,13 @@ def _read(
     except SurfaceError as error:
         pieces = ()
         # a one-sided surface shows only when orienting it is tried
-        if error.what not in [problem.what for problem in found]:
+        if not any(_same(error, problem) for problem in found):
             found.append(error)
     return (len(vertices), len(faces)), found, pieces
+
+
+def _same(one: SurfaceError, other: SurfaceError) -> bool:
+    return one.kind == other.kind and np.array_equal(one.elements, other.elements)
 
 
 def _problem(error: SurfaceError) -> dict[str, Any]:
@@ -107,6 +111,6 @@ def _component(problem: Problem) -> dict[str, Any]:
             "missing": budget.missing,
             "satisfied": budget.satisfied,
             "message": budget.message,
-            "remedies": list(budget.remedies),
+            "remedies": [remedy.words for remedy in budget.remedies],
         },
     }

@@ -52,7 +52,7 @@ def mesh_options(
     edge_length: float | None,
     target_quads: int | None,
     collapse: bool,
-    remedy: str,
+    advice: str,
 ) -> MeshOptions | None:
     """What the command line says about quads; None if it wants none.
 
@@ -66,7 +66,7 @@ def mesh_options(
     given = {"edge-length": edge_length, "target-quads": target_quads, "collapse": collapse or None}
     for name, value in given.items():
         if value is not None:
-            raise CrossviewError(f"--{name} is about quads", "", remedy)
+            raise CrossviewError(f"--{name} is about quads", "", advice)
     return None
 
 

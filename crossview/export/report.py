@@ -126,7 +126,7 @@ def summary(solution: Solution) -> str:
         said += "" if field.convergence.converged else ", not converged"
     else:
         said += f"E {field.energy:.3g}"
-    return said if verdict.status == "valid" else f"{said}. {verdict.reason}"
+    return said if verdict.status == "valid" else f"{said}. {verdict}"
 
 
 def _defects(solution: Solution) -> str:
@@ -202,7 +202,7 @@ def _integrability(solution: Solution) -> dict[str, Any]:
         "aspect_growth": solution.growth,
         "flips": solution.inverted,
         "verdict": solution.verdict.status,
-        "verdict_reason": solution.verdict.reason,
+        "verdict_reason": str(solution.verdict),
     }
 
 

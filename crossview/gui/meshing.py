@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import partial
 
 from crossview.gui.solving import Solving
-from crossview.gui.state import MessageAction, WindowState
+from crossview.gui.state import WindowState
 from crossview.gui.store import Store
 from crossview.scene import Elements
-from crossview.session.commands import ChooseMethod, Command
 from crossview.session.meshes import Meshes, lay_out, make_quads, trace
 from crossview.workflow.quads import MeshOptions
 from solvers.fields.crossfield import CrossField
@@ -28,23 +26,11 @@ class Meshing:
     store : Store
     solving : Solving
         Calls `pursue` whenever it has nothing else to do.
-    do : callable
-        Makes a command one step of the history.
-    make_valid : callable
-        The verb that moves the singularities to validity.
     """
 
-    def __init__(
-        self,
-        store: Store,
-        solving: Solving,
-        do: Callable[[Command], None],
-        make_valid: Callable[[], None],
-    ) -> None:
+    def __init__(self, store: Store, solving: Solving) -> None:
         self._store = store
         self._solving = solving
-        self._do = do
-        self._make_valid = make_valid
         self._kept: list[Meshes] = []
         self._next: MeshOptions | None = None
         self._told: LayoutError | None = None
@@ -63,6 +49,10 @@ class Meshing:
         made = self._made(state.solution.field)
         job = partial(make_quads, state.solution, made, options)
         self._solving.run(job, partial(self._show_quads, options), self._failed)
+
+    def wait_for(self, options: MeshOptions) -> None:
+        """Make quads of the solution that is to come."""
+        self._next = options
 
     def pursue(self) -> bool:
         """Start what is wanted next and not there yet; return whether there was any."""
@@ -114,35 +104,10 @@ class Meshing:
         self._told = trouble
         pointed = Elements(faces=trouble.faces) if len(trouble.faces) else None
         cause = "layout" if options is None else "mesh"
-        self._store.fail(trouble, cause, self._offers(trouble, options), pointed)
+        self._store.fail(trouble, cause, options, pointed)
 
     def _failed(self, error: Exception) -> None:
         self._store.fail(error, "mesh")
-
-    def _offers(
-        self, trouble: LayoutError, options: MeshOptions | None
-    ) -> tuple[MessageAction, ...]:
-        """Return the remedies that the error itself names; each goes on to quads if wanted."""
-
-        def then(remedy: Callable[[], None]) -> Callable[[], None]:
-            def mend() -> None:
-                remedy()
-                self._next = options
-
-            return mend
-
-        offers = (
-            ("valid", "Make valid", self._make_valid),
-            ("anisotropic", "Solve anisotropic", self._solve_anisotropic),
-        )
-        return tuple(
-            MessageAction(label, then(remedy))
-            for word, label, remedy in offers
-            if word in trouble.remedy
-        )
-
-    def _solve_anisotropic(self) -> None:
-        self._do(ChooseMethod("anisotropic"))
 
     def _forget(self, old: WindowState, new: WindowState) -> None:
         """Wait no longer for a solution that fails to come, nor be silent on what is new."""
@@ -150,7 +115,7 @@ class Meshing:
         if hidden or new.field is not old.field:
             self._told = None
         said = new.message
-        failed = said is not None and (said.severity == "error" or said.text.startswith("Stopped"))
+        failed = said is not None and (said.severity == "error" or said.stopped)
         if (failed and said is not old.message) or _surface(new) is not _surface(old):
             self._next = None
 

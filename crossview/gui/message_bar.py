@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import (
@@ -22,6 +20,7 @@ from crossview.gui.icons import colored_icon, icon
 from crossview.gui.panels.texts import BAD
 from crossview.gui.state import Message, WindowState
 from crossview.gui.workspace import Workspace
+from solvers.remedies import Remedy
 
 TINTS = {"error": BAD, "warning": "#b7791f", "info": "#2f6fde"}
 MOST_WIDTH, MARGIN = 720, 12
@@ -113,13 +112,13 @@ class MessageBar(QFrame):
         for button in self.action_buttons:
             self._buttons.removeWidget(button)
             button.deleteLater()
-        self.action_buttons = [self._action(action.label, action.run) for action in message.actions]
+        self.action_buttons = [self._button(message, remedy) for remedy in message.remedies]
         self.raise_()
         self.place()
 
-    def _action(self, label: str, run: Callable[[], None]) -> QPushButton:
-        button = QPushButton(label)
-        button.clicked.connect(lambda: run())
+    def _button(self, message: Message, remedy: Remedy) -> QPushButton:
+        button = QPushButton(remedy.label)
+        button.clicked.connect(lambda: self._workspace.carry_out(remedy, message.tried))
         self._buttons.insertWidget(self._buttons.count() - 3, button)
         return button
 

@@ -6,18 +6,11 @@ from collections.abc import Callable, Generator
 from functools import partial
 
 from crossview.gui.solving import Solving
-from crossview.gui.state import Message, MessageAction
+from crossview.gui.state import Message
 from crossview.gui.store import Store
-from crossview.session.commands import ChooseMethod, Command, ReplaceSingularities
+from crossview.session.commands import Command
 from crossview.session.moving import move_to_validity, place_natural
 from solvers.progress import Progress
-from solvers.validity.make_valid import Offer, ValidityError
-
-LABELS = {"anisotropic": "Solve anisotropic"}
-"""Of buttons, where they are shorter than what is offered in words."""
-
-NAMES = {"turns": "another layout", "pair": "one more pair"}
-"""What the steps of offers are called."""
 
 
 class Moves:
@@ -54,28 +47,12 @@ class Moves:
     def _run(self, job: Callable[[], Generator[Progress, None, Command]]) -> None:
         def failed(error: Exception) -> None:
             self._solving.restore()
-            self._store.fail(error, "edit", self._offers(error))
+            self._store.fail(error, "edit")
 
         def stopped() -> None:
             self._solving.restore()
-            self._store.set(message=Message("Stopped; nothing was changed", "edit", "info"))
+            text = "Stopped; nothing was changed"
+            self._store.set(message=Message(text, "edit", "info", stopped=True))
 
         self._store.clear_message("edit")
         self._solving.run(job, self._do, failed, stopped)
-
-    def _take(self, offer: Offer) -> None:
-        """Make what is offered one step of the history."""
-        if offer.singularities is None:
-            self._do(ChooseMethod(offer.kind))
-        else:
-            self._do(ReplaceSingularities(offer.singularities, f"make valid, {NAMES[offer.kind]}"))
-
-    def _offers(self, error: Exception) -> tuple[MessageAction, ...]:
-        """Return what the error itself says may be done."""
-        if not isinstance(error, ValidityError):
-            return ()
-        return tuple(
-            MessageAction(LABELS.get(offer.kind, offer.label), partial(self._take, offer))
-            for offer in error.offers
-            if offer.kind != self._store.state.method
-        )

@@ -203,9 +203,10 @@ class Solving:
             self._show(solved)
             reached = energy(solved.solution.field.energy)
             text = f"Stopped: the last iterate is kept, not converged (E = {reached})"
-            self._store.set(message=Message(text, "solve", "info"))
+            self._store.set(message=Message(text, "solve", "info", stopped=True))
 
         self.run(partial(self._solver.keep, iterate.step), show, self._failed)
 
     def _say_stopped(self) -> None:
-        self._store.set(message=Message("Stopped; what was there is kept", "stop", "info"))
+        text = "Stopped; what was there is kept"
+        self._store.set(message=Message(text, "stop", "info", stopped=True))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from crossview.cases.model import METHODS
@@ -14,13 +14,16 @@ from crossview.session.live import LiveBase, LiveEdit
 from crossview.session.meshes import NO_MESHES, Meshes
 from crossview.session.methods import Iterate
 from crossview.session.moving import Moving
+from crossview.session.opening import Opening
 from crossview.workflow.marking import Marking
 from crossview.workflow.pipeline import Solution
 from crossview.workflow.problem import Problem
+from crossview.workflow.quads import MeshOptions
 from solvers.features.edges import Features
 from solvers.fields.crossfield import CrossField
 from solvers.layouts.separatrices import Separatrices
 from solvers.progress import Progress
+from solvers.remedies import Remedy
 from solvers.singularities.budget import IndexBudget, Singularity, index_budget
 from solvers.surface.points import SurfacePoint
 from solvers.surface.triangulation import FloatArray, IntArray
@@ -28,11 +31,18 @@ from solvers.surface.trisurface import TriSurface
 
 
 @dataclass(frozen=True, eq=False)
-class MessageAction:
-    """A button of the message bar: what to do about it."""
+class ShowWhere(Remedy):
+    """Show the file that could not be opened, with the offending elements pointed out.
 
-    label: str
-    run: Callable[[], None]
+    Parameters
+    ----------
+    words : str
+        As in `Remedy`.
+    elements : Elements
+        Numbered as in the file.
+    """
+
+    elements: Elements
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +75,12 @@ class Message:
     severity : {"error", "warning", "info"}
     details : str
         More to read and copy; may be empty.
-    actions : tuple of MessageAction
+    remedies : tuple of Remedy
+        What the window can do about it: its buttons.
+    tried : Opening, MeshOptions or None
+        What was to be opened or made, which a remedy goes on with.
+    stopped : bool
+        Whether it tells that the user has stopped something.
     faulty : Faulty or None
         What it is about, to be shown in the scene as long as the message stands.
     pointed : Elements or None
@@ -76,7 +91,9 @@ class Message:
     cause: str
     severity: str = "error"
     details: str = ""
-    actions: tuple[MessageAction, ...] = ()
+    remedies: tuple[Remedy, ...] = ()
+    tried: Opening | MeshOptions | None = None
+    stopped: bool = False
     faulty: Faulty | None = None
     pointed: Elements | None = None
 

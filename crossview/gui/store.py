@@ -9,9 +9,12 @@ from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 
-from crossview.gui.state import Message, MessageAction, WindowState
+from crossview.gui.state import Message, ShowWhere, WindowState
 from crossview.scene import Elements
+from crossview.session.opening import Opening
+from crossview.workflow.quads import MeshOptions
 from solvers.errors import CrossviewError, SurfaceError
+from solvers.remedies import Remedy, RepairSurface, TakeLargest, UseMethod
 
 MOST_LISTED = 200
 
@@ -41,7 +44,7 @@ class Store(QObject):
         self,
         error: BaseException,
         cause: str,
-        actions: tuple[MessageAction, ...] = (),
+        tried: Opening | MeshOptions | None = None,
         pointed: Elements | None = None,
     ) -> None:
         """Show an error until its cause is gone (`clear_message`).
@@ -49,20 +52,23 @@ class Store(QObject):
         Parameters
         ----------
         error : BaseException
-            One the user can mend is told in its own words; another with its traceback as details.
+            One the user can mend is told in its own words, with a button for each remedy that
+            the window can carry out; another with its traceback as details.
         cause : str
             What was tried.
-        actions : tuple of MessageAction
-            What may be done about it.
+        tried : Opening or MeshOptions, optional
+            The same as a value that a remedy goes on with.
         pointed : Elements, optional
             Where it is on the surface shown.
         """
+        remedies: tuple[Remedy, ...] = ()
         if isinstance(error, CrossviewError):
             text, details = str(error), describe(error)
+            remedies = offered(error, tried, self._state.method)
         else:
             text = f"Something went wrong: {error or type(error).__name__}"
             details = "".join(traceback.format_exception(error))
-        self.set(message=Message(text, cause, "error", details, actions, pointed=pointed))
+        self.set(message=Message(text, cause, "error", details, remedies, tried, pointed=pointed))
 
     def clear_message(self, cause: str) -> None:
         """Take the message away if this was its cause."""
@@ -82,6 +88,37 @@ class Store(QObject):
             self.clear_message(cause)
 
 
+def offered(
+    error: CrossviewError, tried: Opening | MeshOptions | None, method: str
+) -> tuple[Remedy, ...]:
+    """Return what the window can do about an error, by the kinds of its remedies alone.
+
+    Parameters
+    ----------
+    error : CrossviewError
+    tried : Opening, MeshOptions or None
+        What has failed: only an opening is repeated otherwise.
+    method : str
+        The method of the document; there is no use in choosing it.
+    """
+    found = []
+    for remedy in error.remedies:
+        match remedy:
+            case RepairSurface():
+                useful = isinstance(tried, Opening) and not tried.repair
+            case TakeLargest():
+                useful = isinstance(tried, Opening)
+            case UseMethod(method=other):
+                useful = other != method
+            case _:
+                useful = True
+        found += [remedy] if useful else []
+    as_read = isinstance(tried, Opening) and not (tried.component or tried.repair)
+    if as_read and isinstance(error, SurfaceError) and error.elements.size:
+        found.append(ShowWhere("show where", Elements(**{error.kind: error.elements})))
+    return tuple(found)
+
+
 def describe(error: CrossviewError) -> str:
     """Return an error on several lines: what, where, which elements, what to do."""
     lines = [error.what]
@@ -90,6 +127,6 @@ def describe(error: CrossviewError) -> str:
     if isinstance(error, SurfaceError) and error.elements.size:
         listed = ", ".join(str(element) for element in error.elements.tolist()[:MOST_LISTED])
         lines.append(f"{error.kind or 'elements'} ({len(error.elements)}): {listed}")
-    if error.remedy:
-        lines.append(f"What to do: {error.remedy}")
+    if error.to_do():
+        lines.append(f"What to do: {error.to_do()}")
     return "\n".join(lines)

@@ -14,7 +14,7 @@ from crossview.gui.meshing import Meshing
 from crossview.gui.moves import Moves
 from crossview.gui.pairs import Pairs
 from crossview.gui.solving import Solving
-from crossview.gui.state import Faulty, MessageAction
+from crossview.gui.state import Faulty, ShowWhere
 from crossview.gui.store import Store
 from crossview.gui.trials import Trials
 from crossview.scene import Elements
@@ -29,9 +29,10 @@ from crossview.session.commands import (
 )
 from crossview.session.document import Document
 from crossview.session.history import History
-from crossview.session.mending import Mending
-from crossview.session.opening import open_target, read_triangles
-from solvers.errors import SurfaceError
+from crossview.session.mending import mend
+from crossview.session.opening import Opening, open_target, read_triangles
+from crossview.workflow.quads import MeshOptions
+from solvers.remedies import MakeValid, Remedy, RepairSurface, TakeLargest
 from solvers.singularities.budget import Singularity
 from solvers.surface.points import SurfacePoint
 from solvers.surface.triangulation import FloatArray, IntArray
@@ -52,7 +53,7 @@ class Workspace(Store):
         self.marks = Marks(self, self.do)
         self.guiding = Guiding(self)
         self.pairs = Pairs(self, self.solving, self.do)
-        self.meshing = Meshing(self, self.solving, self.do, self.moves.make_valid)
+        self.meshing = Meshing(self, self.solving)
 
     def close(self) -> None:
         """End the background thread."""
@@ -65,35 +66,13 @@ class Workspace(Store):
         Parameters
         ----------
         target : str
-            As for `open_target`.
+            As of `Opening`.
         component : str, optional
             Which piece to take of a surface in several.
         repair : bool
             Also mend what cannot be mended without changing the surface.
         """
-        offers = (
-            ("choose the largest", "Use the largest piece", ("largest", repair)),
-            ("repair the surface", "Repair", (component, True)),
-        )
-
-        def failed(error: Exception) -> None:
-            remedy = error.remedy if isinstance(error, SurfaceError) else ""
-            actions = [
-                MessageAction(label, partial(self.open, target, *choices))
-                for start, label, choices in offers
-                if remedy.startswith(start)
-            ]
-            if (
-                isinstance(error, SurfaceError)
-                and error.elements.size
-                and not (component or repair)
-            ):
-                actions.append(MessageAction("Show where", partial(self._locate, target, error)))
-            self.fail(error, "open", tuple(actions))
-            self.solving.resume()
-
-        job = partial(open_target, target, component=component, repair=repair)
-        self.solving.run(job, self._open_document, failed)
+        self._open(Opening(target, component, repair))
 
     def do(self, command: Command) -> None:
         """Make one undoable change."""
@@ -140,9 +119,34 @@ class Workspace(Store):
         """Delete singularities."""
         self.do(RemoveSingularities(frozenset(indices)))
 
-    def mend(self, mending: Mending) -> None:
-        """Carry out an offer of the validity panel."""
-        self.solving.run(mending.make, self.do, lambda error: self.fail(error, "edit"))
+    def carry_out(self, remedy: Remedy, tried: Opening | MeshOptions | None = None) -> None:
+        """Do what a button of a message or of the validity panel says.
+
+        Parameters
+        ----------
+        remedy : Remedy
+        tried : Opening, MeshOptions or None
+            What has failed: a file is opened again, quads are made afterwards.
+        """
+        match remedy:
+            case RepairSurface() if isinstance(tried, Opening):
+                self._open(replace(tried, repair=True))
+            case TakeLargest() if isinstance(tried, Opening):
+                self._open(replace(tried, component="largest"))
+            case ShowWhere(elements=elements) if isinstance(tried, Opening):
+                self._locate(tried.target, elements)
+            case MakeValid():
+                self.moves.make_valid()
+            case _:
+                self._mend(remedy)
+        if isinstance(tried, MeshOptions):
+            self.meshing.wait_for(tried)
+
+    def _mend(self, remedy: Remedy) -> None:
+        document = self.state.document
+        if document is not None:
+            job = partial(mend, document, remedy)
+            self.solving.run(job, self.do, lambda error: self.fail(error, "edit"))
 
     def choose_method(self, method: str) -> None:
         """Solve by another method; the last result of each is kept."""
@@ -163,16 +167,22 @@ class Workspace(Store):
             self.clear_message("layout")
         self.solving.pursue()
 
-    def _locate(self, target: str, error: SurfaceError) -> None:
+    def _open(self, opening: Opening) -> None:
+        def failed(error: Exception) -> None:
+            self.fail(error, "open", opening)
+            self.solving.resume()
+
+        self.solving.run(partial(open_target, opening), self._open_document, failed)
+
+    def _locate(self, target: str, elements: Elements) -> None:
         """Show what could not be opened, the offending elements pointed out."""
         message = self.state.message
 
         def show(triangles: tuple[FloatArray, IntArray]) -> None:
             if message is not None and message is self.state.message:
-                elements = Elements(**{error.kind: error.elements})
+                left = tuple(r for r in message.remedies if not isinstance(r, ShowWhere))
                 faulty = Faulty(*triangles, elements)
-                left = tuple(a for a in message.actions if a.label != "Show where")
-                self.set(message=replace(message, actions=left, faulty=faulty))
+                self.set(message=replace(message, remedies=left, faulty=faulty))
             self.solving.resume()
 
         self.solving.run(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Generator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from crossview.cases.gallery import find_case
@@ -14,10 +14,9 @@ from solvers.repair.flat_triangles import merge_coincident
 from solvers.surface.triangulation import FloatArray, IntArray
 
 
-def open_target(
-    target: str, *, component: str | None = None, repair: bool = False
-) -> Generator[Progress, None, Document]:
-    """Read what `target` names.
+@dataclass(frozen=True)
+class Opening:
+    """What is to be opened, and how.
 
     Parameters
     ----------
@@ -28,12 +27,23 @@ def open_target(
     repair : bool
         Also mend what cannot be mended without changing the surface.
     """
+
+    target: str
+    component: str | None = None
+    repair: bool = False
+
+
+def open_target(opening: Opening) -> Generator[Progress, None, Document]:
+    """Read what `opening` names."""
+    target = opening.target
     path = Path(target)
     yield Progress(f"reading {path.name}", 0.1)
     case = find_case(target)
     options = case.options
     options = replace(
-        options, component=component or options.component, repair=repair or options.repair
+        options,
+        component=opening.component or options.component,
+        repair=opening.repair or options.repair,
     )
     case = replace(case, options=options)
     yield Progress("preparing the surface", 0.5)

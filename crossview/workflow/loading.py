@@ -8,9 +8,6 @@ from solvers.errors import SurfaceError
 from solvers.primitives import BUILTIN
 from solvers.repair.soup import Repaired, repair, repair_each
 
-OPTIONS = {"repair the surface": "repair", "choose the largest": "component"}
-"""The option of a case that does what a remedy starting so says."""
-
 
 def load_surfaces(case: Case) -> tuple[Repaired, ...]:
     """The surface of a case, or every component of it if the case asks for all.
@@ -33,7 +30,8 @@ def load_surfaces(case: Case) -> tuple[Repaired, ...]:
         try:
             return (Repaired(BUILTIN[name](**parameters)),)
         except SurfaceError as error:
-            raise _explained(error, f"built-in {name}") from error
+            error.locate(f"built-in {name}")
+            raise
     return mended(read_surface(case.surface), case)
 
 
@@ -54,15 +52,6 @@ def mended(raw: RawSurface, case: Case) -> tuple[Repaired, ...]:
                 ),
             )
     except SurfaceError as error:
-        raise _explained(error, str(case.surface)) from error
+        error.locate(str(case.surface))
+        raise
     return tuple(Repaired(piece.surface, (*raw.notes, *piece.notes)) for piece in pieces)
-
-
-def _explained(error: SurfaceError, source: str) -> SurfaceError:
-    """The same error with the file it is about and the option that mends it."""
-    where = f"{source}, {error.where}" if error.where else source
-    remedy = error.remedy
-    for start, option in OPTIONS.items():
-        if remedy.startswith(start):
-            remedy += f" (option {option})"
-    return SurfaceError(error.what, where, remedy, error.elements, error.kind)

@@ -149,7 +149,7 @@ def of_component(number: int | None) -> Iterator[None]:
         yield
     except CrossviewError as error:
         if number is not None:
-            error.where = f"component {number}" + (f", {error.where}" if error.where else "")
+            error.locate(f"component {number}")
         raise
 
 

@@ -22,6 +22,7 @@ from solvers.quads.filling import fill
 from solvers.quads.quadmesh import QuadMesh
 from solvers.quads.quantization import quantize, quantize_to
 from solvers.quads.smoothing import smooth
+from solvers.remedies import ANISOTROPIC, MAKE_VALID, Remedy
 from solvers.surface.triangulation import FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface
 
@@ -31,9 +32,6 @@ MOST_QUADS = 2_000_000
 
 SOON = 50_000
 """Triangles up to which a layout takes seconds at most."""
-
-ANISOTROPIC = "solve the anisotropic field (method anisotropic)"
-REMEDY = f"make the configuration valid (make-valid) or {ANISOTROPIC}"
 
 
 @dataclass(frozen=True)
@@ -233,10 +231,10 @@ def _require_possible(solution: Solution) -> None:
     loops, _ = misaligned_boundaries(solution)
     if len(loops):
         misses = "a boundary" if len(loops) == 1 else f"{len(loops)} boundaries"
-        raise _misses(misses, solution.field.boundary_misalignment, REMEDY)
+        raise _misses(misses, solution.field.boundary_misalignment, MAKE_VALID, ANISOTROPIC)
     if solution.verdict.status == "impossible":
-        reason, mendable, _ = solution.verdict.reason.rstrip(".").partition("; ")
-        raise LayoutError(f"no quads: {reason}", "", REMEDY if mendable else "")
+        reason = solution.verdict.reason.rstrip(".")
+        raise LayoutError(f"no quads: {reason}", remedies=solution.verdict.remedies)
     off = np.abs(np.degrees(solution.field.feature_misalignment))
     missed = np.count_nonzero(off > solution.problem.options.tolerance_degrees)
     if missed:
@@ -255,9 +253,9 @@ def _require_closing(field: CrossField) -> None:
         )
 
 
-def _misses(what: str, angles: FloatArray, remedy: str) -> LayoutError:
+def _misses(what: str, angles: FloatArray, *remedies: Remedy) -> LayoutError:
     worst = np.degrees(np.abs(angles).max())
-    return LayoutError(f"the field misses {what}, by up to {worst:.3g} degrees", "", remedy)
+    return LayoutError(f"the field misses {what}, by up to {worst:.3g} degrees", remedies=remedies)
 
 
 def _integrated(solution: Solution) -> IntegratedField:

@@ -210,13 +210,13 @@ class IsotropicSolver:
             if on_boundary:
                 raise SingularityError(
                     f"singularity {number} lies on the boundary",
-                    remedy="move it inside, or give the boundary a corner there",
+                    advice="move it inside, or give the boundary a corner there",
                 )
             place = ("vertex", int(at[0])) if len(at) == 1 else ("triangle", int(face))
             if place in taken:
                 raise SingularityError(
                     f"singularities {taken[place]} and {number} lie in the same {place[0]}",
-                    remedy="move one of them away",
+                    advice="move one of them away",
                 )
             taken[place] = number
 

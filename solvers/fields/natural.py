@@ -175,10 +175,10 @@ def natural_singularities(
     ()
     """
     if method not in METHODS:
-        raise CrossviewError(f'unknown method "{method}"', remedy=f"one of {', '.join(METHODS)}")
+        raise CrossviewError(f'unknown method "{method}"', advice=f"one of {', '.join(METHODS)}")
     if alignment not in ALIGNMENTS:
         raise CrossviewError(
-            f'unknown alignment "{alignment}"', remedy=f"one of {', '.join(ALIGNMENTS)}"
+            f'unknown alignment "{alignment}"', advice=f"one of {', '.join(ALIGNMENTS)}"
         )
     if not 0 <= weight < np.inf:
         raise CrossviewError(f"the weight {weight:g} of the curvature is not 0 or more", "weight")

@@ -8,6 +8,7 @@ from typing import Literal
 import numpy as np
 
 from solvers.fields.crossfield import CrossField
+from solvers.remedies import ANISOTROPIC, MAKE_VALID, Remedy, in_words
 
 INTEGRABLE = 1e-8
 """E below which a field counts as integrable."""
@@ -29,10 +30,19 @@ class Verdict:
         The judgement.
     reason : str
         Why, in a sentence.
+    remedies : tuple of Remedy
+        What may be done about it.
     """
 
     status: Literal["valid", "suspect", "impossible"]
     reason: str
+    remedies: tuple[Remedy, ...] = ()
+
+    def __str__(self) -> str:
+        """Return the reason and what may be done, in a sentence."""
+        if not self.remedies:
+            return self.reason
+        return f"{self.reason.rstrip('.')}; {in_words(self.remedies)}."
 
 
 def judge(
@@ -67,14 +77,15 @@ def judge(
     if worst > np.degrees(tolerance):
         return Verdict(
             "impossible",
-            f"No isotropic field is aligned: a holonomy defect is {worst:.3g} degrees; move "
-            "singularities or solve the anisotropic field.",
+            f"No isotropic field is aligned: a holonomy defect is {worst:.3g} degrees.",
+            (MAKE_VALID, ANISOTROPIC),
         )
     off = float(np.degrees(np.abs(field.feature_misalignment).max(initial=0.0)))
     if off > np.degrees(tolerance):
         return Verdict(
             "suspect",
-            f"The field is {off:.3g} degrees off a feature curve; solve the anisotropic field.",
+            f"The field is {off:.3g} degrees off a feature curve.",
+            (ANISOTROPIC,),
         )
     return _judge_aligned(field, flips, growth)
 

@@ -19,6 +19,7 @@ from solvers.layouts.patches import PatchMesh, sampled
 from solvers.layouts.separatrices import Separatrices
 from solvers.layouts.tmesh import TMesh
 from solvers.progress import Progress
+from solvers.remedies import ANISOTROPIC, MAKE_VALID
 from solvers.surface.triangulation import FloatArray
 from solvers.surface.trisurface import TriSurface
 
@@ -157,10 +158,10 @@ def _require_integrable(integrated: IntegratedField) -> None:
     if worst > MISALIGNED:
         raise LayoutError(
             f"the field misses a boundary by {np.degrees(worst):.3g} degrees",
-            remedy="make the configuration valid, or solve the anisotropic field",
+            remedies=(MAKE_VALID, ANISOTROPIC),
         )
     if field.energy > NOT_INTEGRABLE:
         raise LayoutError(
             f"the field is not integrable, E = {field.energy:.2g}",
-            remedy="make the configuration valid, or solve the anisotropic field",
+            remedies=(MAKE_VALID, ANISOTROPIC),
         )

@@ -181,7 +181,7 @@ def _inside(triangulation: Delaunay, boundary: IntArray) -> npt.NDArray[np.bool_
     if left.sum() != len(boundary):
         raise SurfaceError(
             f"{len(boundary) - left.sum()} boundary edges do not fit into the triangulation",
-            remedy="choose a smaller edge length, and polygons that do not cross",
+            advice="choose a smaller edge length, and polygons that do not cross",
         )
     triangle, corner = np.nonzero(~(left | right) & (triangulation.neighbors >= 0))
     links = (triangle, triangulation.neighbors[triangle, corner])
@@ -190,7 +190,7 @@ def _inside(triangulation: Delaunay, boundary: IntArray) -> npt.NDArray[np.bool_
     inner, outer = label[left.any(axis=1)], label[right.any(axis=1)]
     if np.isin(outer, inner).any():
         raise SurfaceError(
-            "the polygons do not bound one region", remedy="keep holes inside and apart"
+            "the polygons do not bound one region", advice="keep holes inside and apart"
         )
     return np.asarray(np.isin(label, inner))
 

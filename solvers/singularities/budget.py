@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from solvers.errors import SingularityError
+from solvers.remedies import Remedy, in_words
+from solvers.singularities.remedies import AddMissing, ChangeOne, RemoveOne
 from solvers.surface.points import SurfacePoint
 from solvers.surface.trisurface import TriSurface
 
@@ -96,9 +98,7 @@ class IndexBudget:
         Sum of the indices of singularities and corners.
     required : int
         Four times the Euler characteristic.
-    message : str
-        The comparison in plain words, with what is missing.
-    remedies : tuple of str
+    remedies : tuple of Remedy
         Single changes that would meet the budget.
 
     Examples
@@ -112,8 +112,13 @@ class IndexBudget:
 
     index_sum: int
     required: int
-    message: str
-    remedies: tuple[str, ...]
+    remedies: tuple[Remedy, ...]
+
+    @property
+    def message(self) -> str:
+        """The comparison in plain words, with what would mend it."""
+        said = f"index {self.index_sum} of {self.required}"
+        return said if self.satisfied else f"{said}: {in_words(self.remedies)}"
 
     @property
     def missing(self) -> int:
@@ -158,11 +163,8 @@ def index_budget(
     total = sum(s.index for s in singularities) + sum(corners.values())
     required = 4 * surface.euler_characteristic
     missing = required - total
-    if missing == 0:
-        return IndexBudget(total, required, f"index {total} of {required}", ())
-    remedies = _remedies(missing, singularities)
-    message = f"index {total} of {required}: {' or '.join(remedies)}"
-    return IndexBudget(total, required, message, remedies)
+    remedies = _remedies(missing, singularities) if missing else ()
+    return IndexBudget(total, required, remedies)
 
 
 def require_budget(
@@ -198,21 +200,22 @@ def require_budget(
     if not budget.satisfied:
         raise SingularityError(
             f"the singularities miss the index budget, {budget.index_sum} of {budget.required}",
-            remedy=" or ".join(budget.remedies),
+            remedies=budget.remedies,
         )
 
 
-def _remedies(missing: int, singularities: Sequence[Singularity]) -> tuple[str, ...]:
-    valence = 3 if missing > 0 else 5
-    count = abs(missing)
-    found = [f"add {'one' if count == 1 else count} valence {valence}"]
+def _remedies(missing: int, singularities: Sequence[Singularity]) -> tuple[Remedy, ...]:
+    found: list[Remedy] = [AddMissing.of(3 if missing > 0 else 5, abs(missing))]
     if missing < -1:
-        found.append(f"add one valence {4 - missing}")
-    for number, singularity in enumerate(singularities, start=1):
-        changed = singularity.valence - missing
-        if changed >= 1:
-            made = "remove" if changed == 4 else "make"
-            tail = "" if changed == 4 else f" a valence {changed}"
-            found.append(f"{made} #{number}{tail}")
-            break
+        found.append(AddMissing.of(4 - missing, 1))
+    for number, singularity in reversed(list(enumerate(singularities))):
+        valence = singularity.valence - missing
+        if valence < 1 or singularity.locked:
+            continue
+        name = f"#{number + 1}"
+        if valence == 4:  # regular: it is to go
+            found.append(RemoveOne(f"remove {name}", number))
+        else:
+            found.append(ChangeOne(f"make {name} a valence {valence}", number, valence))
+        break
     return tuple(found)

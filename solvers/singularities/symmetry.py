@@ -139,7 +139,7 @@ def _placed(
     away = np.linalg.norm(surface.positions(points) - x, axis=1) > 1e-9 * surface.diagonal
     held = [i for i, s in enumerate(singularities) if s.locked and away[i]]
     if held:
-        raise SingularityError(f"#{held[0] + 1} is locked", remedy="unlock it")
+        raise SingularityError(f"#{held[0] + 1} is locked", advice="unlock it")
     return tuple(
         replace(s, point=point) if moves else s
         for s, point, moves in zip(singularities, points, away, strict=True)

@@ -10,6 +10,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from solvers.errors import SurfaceError
+from solvers.remedies import RepairSurface, TakeLargest
 from solvers.surface.triangulation import FloatArray, IntArray, next_halfedge
 
 LARGEST = 1e100
@@ -187,18 +188,18 @@ def _element_problems(vertices: FloatArray, faces: IntArray) -> Iterator[Surface
         yield SurfaceError(
             f"{counted(len(bad), 'degenerate triangle')} without area",
             f"triangles {listed(bad)}",
-            "repair the surface, which drops them",
-            bad,
-            "faces",
+            elements=bad,
+            kind="faces",
+            remedies=[RepairSurface("repair the surface, which drops them")],
         )
     bad = np.flatnonzero(duplicate_faces(faces))
     if len(bad):
         yield SurfaceError(
             counted(len(bad), "duplicate triangle"),
             f"triangles {listed(bad)}",
-            "repair the surface, which drops them",
-            bad,
-            "faces",
+            elements=bad,
+            kind="faces",
+            remedies=[RepairSurface("repair the surface, which drops them")],
         )
     used = np.zeros(len(vertices), dtype=bool)
     used[faces] = True
@@ -207,9 +208,9 @@ def _element_problems(vertices: FloatArray, faces: IntArray) -> Iterator[Surface
         yield SurfaceError(
             f"{counted(len(bad), 'vertex')} of no triangle",
             f"vertices {listed(bad)}",
-            "repair the surface, which drops them",
-            bad,
-            "vertices",
+            elements=bad,
+            kind="vertices",
+            remedies=[RepairSurface("repair the surface, which drops them")],
         )
 
 
@@ -223,9 +224,9 @@ def _edge_problems(faces: IntArray, pairs: HalfedgePairs) -> Iterator[SurfaceErr
         yield SurfaceError(
             f"{counted(len(edges), 'non-manifold edge')} with more than two triangles",
             f"edges {listed(edges)}",
-            "repair the surface, which cuts it apart there",
-            edges,
-            "edges",
+            elements=edges,
+            kind="edges",
+            remedies=[RepairSurface("repair the surface, which cuts it apart there")],
         )
     h = np.flatnonzero(pairs.twin >= 0)
     wrong = h[tail[h] == tail[pairs.twin[h]]]
@@ -234,9 +235,9 @@ def _edge_problems(faces: IntArray, pairs: HalfedgePairs) -> Iterator[SurfaceErr
         yield SurfaceError(
             f"neighbouring triangles are oriented against each other at {len(edges)} edges",
             f"edges {listed(edges)}",
-            "repair the surface, which turns them where it can be oriented",
-            edges,
-            "edges",
+            elements=edges,
+            kind="edges",
+            remedies=[RepairSurface("repair the surface, which turns them where that can be done")],
         )
 
 
@@ -252,9 +253,9 @@ def _connection_problems(n_vertices: int, faces: IntArray, twin: IntArray) -> li
             SurfaceError(
                 f"{counted(len(bad), 'non-manifold vertex')} where separate sheets touch",
                 f"vertices {listed(bad)}",
-                "repair the surface, which cuts it apart there",
-                bad,
-                "vertices",
+                elements=bad,
+                kind="vertices",
+                remedies=[RepairSurface("repair the surface, which cuts it apart there")],
             )
         )
     sizes = component_sizes(n_vertices, faces)
@@ -263,7 +264,8 @@ def _connection_problems(n_vertices: int, faces: IntArray, twin: IntArray) -> li
             SurfaceError(
                 f"the surface has {len(sizes)} separate components",
                 f"of {listed(sizes)} triangles",
-                "choose the largest, or solve each on its own",
+                "solve each on its own",
+                remedies=[TakeLargest("choose the largest")],
             )
         )
     return found

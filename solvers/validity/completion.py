@@ -60,7 +60,7 @@ def missing_singularities(
     count = abs(missing)
     if count > MOST:
         raise SingularityError(
-            f"{count} singularities are missing", remedy="add one of a higher valence first"
+            f"{count} singularities are missing", advice="add one of a higher valence first"
         )
     if count == 0:
         return ()

@@ -8,10 +8,9 @@ the refined surface, where the defects of a fresh operator are corrected until t
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterator, Mapping, Sequence
+from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
-from typing import Literal
 
 import numpy as np
 
@@ -19,42 +18,42 @@ from solvers.errors import SingularityError
 from solvers.fields.connection import Condition
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.progress import Progress, relayed
+from solvers.remedies import ANISOTROPIC, Remedy
 from solvers.singularities.budget import Singularity, require_budget
 from solvers.singularities.pairs import pair_at
 from solvers.singularities.placing import far_points
 from solvers.surface.triangulation import FloatArray
 from solvers.surface.trisurface import TriSurface
-from solvers.validity.search import TOLERANCE, TOO_FEW, Blocked, Moved, Search
+from solvers.validity.search import TOLERANCE, Blocked, Moved, Obstacle, Search
 
-__all__ = ["TOLERANCE", "Moved", "Offer", "ValidityError", "make_valid"]
+__all__ = ["TOLERANCE", "Moved", "PlaceAnew", "ValidityError", "make_valid"]
 
 NEAREST = 16
-"""How many layouts are tried before something else is offered."""
+"""How many layouts are tried before something else is proposed."""
 
 FARTHER = 8
-"""How many layouts that are farther off are tried for an offer."""
+"""How many layouts that are farther off are tried for a remedy."""
 
 SITES, AIMS = 3, 3
 """How many places, and how many layouts at each, are tried for one more pair."""
 
 
 @dataclass(frozen=True)
-class Offer:
-    """What helps where moving the singularities to the nearest layouts does not.
+class PlaceAnew(Remedy):
+    """Take a valid configuration, tried and verified, in place of the one there is.
 
     Parameters
     ----------
-    kind : {"turns", "pair", "anisotropic"}
-        Another holonomy integer, one more pair, or another method.
-    label : str
-        In plain words, as an imperative.
-    singularities : tuple of Singularity or None
-        The valid configuration that it leads to, tried and verified; None: none is needed.
+    words : str
+        As in `Remedy`.
+    singularities : tuple of Singularity
+        Those of another layout, or with one more pair.
+    step : str
+        What a history calls it.
     """
 
-    kind: Literal["turns", "pair", "anisotropic"]
-    label: str
-    singularities: tuple[Singularity, ...] | None = None
+    singularities: tuple[Singularity, ...]
+    step: str
 
 
 class ValidityError(SingularityError):
@@ -62,20 +61,19 @@ class ValidityError(SingularityError):
 
     Parameters
     ----------
-    what, where, remedy : str
+    what, where, advice : str
         As in `CrossviewError`.
     condition : int
         The holonomy condition in the way.
-    offers : tuple of Offer
+    remedies : iterable of Remedy
         What helps, the least change first.
     """
 
     def __init__(
-        self, what: str, where: str, remedy: str, condition: int, offers: tuple[Offer, ...]
+        self, what: str, where: str, advice: str, condition: int, remedies: Iterable[Remedy]
     ) -> None:
-        super().__init__(what, where, remedy)
+        super().__init__(what, where, advice, remedies=remedies)
         self.condition = condition
-        self.offers = offers
 
 
 def make_valid(
@@ -130,14 +128,14 @@ class _Attempt:
     def make_valid(self, start: tuple[Singularity, ...]) -> Generator[Progress, None, Moved]:
         """Take the nearest layout that can be reached, or say what helps."""
         if _impossible(self._surface, start):
-            why, remaining = "", self._guide.defects(start)
+            why, remaining = None, self._guide.defects(start)
         else:
             try:
                 return (yield from self._nearest(start, _near(self._guide.defects(start))))
             except Blocked as blocked:
                 why, remaining = blocked.why, blocked.remaining
-        offers = yield from self._offers(start, why)
-        raise _refusal(why, remaining, self._guide.conditions, offers)
+        remedies = yield from self._remedies(start, why)
+        raise _refusal(why, remaining, self._guide.conditions, remedies)
 
     def _nearest(
         self, start: tuple[Singularity, ...], aims: Sequence[tuple[int, ...]]
@@ -152,18 +150,19 @@ class _Attempt:
                 return replace(end, layout=_in_words(turns, self._guide.conditions))
             except Blocked as blocked:
                 first = first or blocked
-                if first.why == TOO_FEW:
+                if first.why is Obstacle.TOO_FEW:
                     break
-        raise first or Blocked(TOO_FEW, self._guide.defects(start))
+        raise first or Blocked(Obstacle.TOO_FEW, self._guide.defects(start))
 
-    def _offers(
-        self, start: tuple[Singularity, ...], why: str
-    ) -> Generator[Progress, None, tuple[Offer, ...]]:
-        found = []
-        if why not in ("", TOO_FEW):
+    def _remedies(
+        self, start: tuple[Singularity, ...], why: Obstacle | None
+    ) -> Generator[Progress, None, tuple[Remedy, ...]]:
+        found: list[Remedy] = []
+        if why not in (None, Obstacle.TOO_FEW):
             farther = yield from self._tried("trying other layouts", start, self._far(start))
             if farther is not None:
-                found.append(Offer("turns", f"Aim at {farther.layout}", farther.singularities))
+                words = f"aim at {farther.layout}"
+                found.append(PlaceAnew(words, farther.singularities, "another layout"))
         sites = yield from far_points(self._surface, start, SITES)
         for site in sites:
             try:
@@ -174,18 +173,17 @@ class _Attempt:
             paired = yield from self._tried("trying one more pair", more, aims)
             if paired is not None:
                 place = ", ".join(f"{x:.3g}" for x in self._surface.position(site))
-                found.append(
-                    Offer("pair", f"Add a pair of 3 and 5 near ({place})", paired.singularities)
-                )
+                words = f"add a pair of 3 and 5 near ({place})"
+                found.append(PlaceAnew(words, paired.singularities, "one more pair"))
                 break
-        if why:
-            found.append(Offer("anisotropic", "Solve the anisotropic field"))
+        if why is not None:
+            found.append(ANISOTROPIC)
         return tuple(found)
 
     def _tried(
         self, stage: str, start: tuple[Singularity, ...], aims: Sequence[tuple[int, ...]]
     ) -> Generator[Progress, None, Moved | None]:
-        """Return where a try for an offer leads; None where it is blocked."""
+        """Return where a try for a remedy leads; None where it is blocked."""
 
         def plainly(step: Progress) -> Progress:
             return Progress(stage, step.fraction)
@@ -240,20 +238,20 @@ def _around(condition: Condition) -> str:
 
 
 def _refusal(
-    why: str, defects: FloatArray, conditions: Sequence[Condition], offers: tuple[Offer, ...]
+    why: Obstacle | None,
+    defects: FloatArray,
+    conditions: Sequence[Condition],
+    remedies: tuple[Remedy, ...],
 ) -> ValidityError:
     worst = int(np.argmax(np.abs(defects)))
-    remedy = " or ".join(offer.label[:1].lower() + offer.label[1:] for offer in offers)
-    if not why:
+    if why is None:
         what = "a torus with one valence 3 and one valence 5 is never valid, wherever they are"
-        remedy = remedy or "add a pair of singularities"
-        return ValidityError(what, "Izmestiev et al. 2013", remedy, worst, offers)
-    if why == TOO_FEW:
-        remedy = f"unlock some, or {remedy}"
+        advice = "" if remedies else "add a pair of singularities"
+        return ValidityError(what, "Izmestiev et al. 2013", advice, worst, remedies)
     return ValidityError(
-        f"the configuration cannot be made valid by moving its singularities: {why}",
+        f"the configuration cannot be made valid by moving its singularities: {why.value}",
         f"{conditions[worst].label}, {np.degrees(abs(defects[worst])):.3g} degrees off",
-        remedy,
+        "unlock some" if why is Obstacle.TOO_FEW else "",
         worst,
-        offers,
+        remedies,
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from enum import Enum
 
 import numpy as np
 
@@ -35,10 +36,14 @@ NUDGE = 0.1
 LEAST_HOLD = 1e-6
 """Change of a defect, radians, by a move of the square root of the area: less is no hold on it."""
 
-TOO_FEW = "too few singularities may move, or only some far away"
-CROWDED = "singularities would come too near to each other or to the boundary"
-STALLED = "no small move brings them nearer"
-UNSETTLED = "the surface is too coarse for its defects to be told"
+
+class Obstacle(Enum):
+    """What ends the way to an aim; the value says it in plain words."""
+
+    TOO_FEW = "too few singularities may move, or only some far away"
+    CROWDED = "singularities would come too near to each other or to the boundary"
+    STALLED = "no small move brings them nearer"
+    UNSETTLED = "the surface is too coarse for its defects to be told"
 
 
 @dataclass(frozen=True)
@@ -70,14 +75,13 @@ class Blocked(Exception):
 
     Parameters
     ----------
-    why : str
-        In plain words.
+    why : Obstacle
     remaining : (c,) float array
         What is left of the defects, radians.
     """
 
-    def __init__(self, why: str, remaining: FloatArray) -> None:
-        super().__init__(why)
+    def __init__(self, why: Obstacle, remaining: FloatArray) -> None:
+        super().__init__(why.value)
         self.why = why
         self.remaining = remaining
 
@@ -144,7 +148,7 @@ class Search:
             singularities, remaining = moved, remaining + change
             done = 1 - float(np.log(max(worst, TOLERANCE) / TOLERANCE)) / 25
             yield Moved("making valid", max(0.0, done), singularities, remaining, turns)
-        raise Blocked(STALLED, remaining)
+        raise Blocked(Obstacle.STALLED, remaining)
 
     def verify(
         self,
@@ -193,7 +197,7 @@ class Search:
             if worst > 0.9 * before:
                 singularities = self._nudged(singularities, defects, gradients, chance)
             before = worst
-        raise Blocked(UNSETTLED, defects)
+        raise Blocked(Obstacle.UNSETTLED, defects)
 
     def _falls(
         self, singularities: tuple[Singularity, ...], remaining: FloatArray
@@ -255,7 +259,7 @@ class Search:
         matrix = self._matrix(gradients, remaining)
         longest = np.linalg.norm(_least(matrix, -remaining), axis=1).max()
         reach = LONGEST_STEP * self._unit
-        share, why = min(1.0, reach / max(float(longest), 1e-300)), STALLED
+        share, why = min(1.0, reach / max(float(longest), 1e-300)), Obstacle.STALLED
         for _ in range(HALVINGS):
             rows, gaps = self._spacing.none
             for _ in range(CONTACTS):
@@ -269,7 +273,7 @@ class Search:
                     return moved
                 if not len(near):
                     break
-                why = CROWDED
+                why = Obstacle.CROWDED
                 more = self._spacing.equations(singularities, near)
                 rows, gaps = np.concatenate([rows, more[0]]), np.concatenate([gaps, more[1]])
             share /= 2
@@ -281,7 +285,7 @@ class Search:
         matrix = np.asarray((gradients * weight[:, None]).reshape(len(remaining), -1))
         scale = np.linalg.svd(matrix, compute_uv=False)
         if matrix.shape[1] < len(remaining) or scale[-1] * self._unit < LEAST_HOLD:
-            raise Blocked(TOO_FEW, remaining)
+            raise Blocked(Obstacle.TOO_FEW, remaining)
         return matrix
 
     def _moved(

@@ -284,7 +284,7 @@ def test_the_torus_that_is_never_valid_is_not_said_to_be(hand: Hand) -> None:
     hand.trigger("make-valid")
     hand.wait(lambda: hand.state.message is not None)
     assert "never valid" in hand.state.message.text
-    (only,) = hand.state.message.actions  # no method makes up for it
+    (only,) = hand.state.message.remedies  # no method makes up for it
     assert only.label.startswith("Add a pair of 3 and 5 near")
     choose(hand, "Anisotropic")
     panel = hand.window.convergence_panel

@@ -74,7 +74,7 @@ class ConvergencePanel(QWidget):
         so_far = field.convergence.energies if iterated else (field.energy,)
         self.plot.empty_text = NO_ITERATIONS.get(solution.problem.method, "No iterations")
         self.plot.show_energies(so_far if iterated else ())
-        said = verdict.reason if field.convergence.converged else f"{STOPPED} {verdict.reason}"
+        said = str(verdict) if field.convergence.converged else f"{STOPPED} {verdict}"
         facts = [aspect(field.max_log_aspect)]
         if solution.integrated is not None:
             facts.insert(0, energies(so_far))

@@ -20,8 +20,9 @@ from crossview.gui.icons import dot_icon
 from crossview.gui.panels.texts import BAD, GOOD, WAITING, degrees, signed
 from crossview.gui.state import WindowState
 from crossview.gui.workspace import Workspace
-from crossview.session.mending import Mending, mendings
+from crossview.session.mending import mendings
 from crossview.view.colors import condition_color
+from solvers.remedies import Remedy
 
 DOT = QSize(14, 14)
 BAR = 4
@@ -181,14 +182,14 @@ class ValidityPanel(QWidget):
         self.note.setText(text)
         self.note.setVisible(bool(text))
 
-    def _show_offers(self, offers: tuple[Mending, ...]) -> None:
+    def _show_offers(self, offers: tuple[Remedy, ...]) -> None:
         for button in self.buttons:
             self._offers.removeWidget(button)
             button.deleteLater()
         self.buttons = []
         for offer in offers:
             button = QPushButton(offer.label)
-            button.clicked.connect(lambda _=False, offer=offer: self._workspace.mend(offer))
+            button.clicked.connect(lambda _=False, offer=offer: self._workspace.carry_out(offer))
             self._offers.addWidget(button)
             self.buttons.append(button)
 

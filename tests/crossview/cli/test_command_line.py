@@ -80,7 +80,10 @@ def two_pieces(tmp_path: Path) -> Path:
             },
             ["singularity #2", "39.6 %", "at 3, 0, 0", "within 5 %"],
         ),
-        ({"surface": "sphere"}, ["miss the index budget, 0 of 8", "add 8 valence 3"]),
+        (
+            {"surface": "sphere"},
+            ["miss the index budget, 0 of 8", "add 8 valence 3 (crossview complete)"],
+        ),
         ({"surface": "torus", "options": {"component": 7}}, ["no component 7", "built-in torus"]),
         ({"surface": {"builtin": "sphere", "radius": 1e200}}, ["radius must be a positive number"]),
         ({"surface": {"builtin": "sphere", "subdivisions": True}}, ["must be a whole number"]),
@@ -239,7 +242,7 @@ def test_info_reports_what_is_wrong_with_a_surface(crossview: Crossview, tmp_pat
     assert "problem: 1 duplicate triangle" in crossview("info", path).out
     # and the command that would solve on it refuses, but can mend it
     ran = crossview("solve", path, "-o", tmp_path / "out")
-    refused(ran, tmp_path, "bad.obj", "duplicate", "(option repair)")
+    refused(ran, tmp_path, "bad.obj", "duplicate", "(--repair)")
     assert crossview("info", path, "--repair", "--json").json["components"] != []
 
 
@@ -257,7 +260,7 @@ def test_a_surface_in_several_components(
 ) -> None:
     out = tmp_path / "out"
     ran = crossview("solve", two_pieces, "-o", out)
-    refused(ran, tmp_path, "2 separate components", "largest", "(option component)")
+    refused(ran, tmp_path, "2 separate components", "largest", "(--component largest)")
     assert crossview("solve", two_pieces, "-o", out, "--component", "largest").status == 0
     report = json.loads((out / "report.json").read_text())
     assert report["surface"]["genus"] == 1

@@ -5,7 +5,7 @@ import numpy as np
 from crossview.cases.model import Case
 from crossview.session.commands import AddSingularities
 from crossview.session.document import Document
-from crossview.session.opening import open_target
+from crossview.session.opening import Opening, open_target
 from solvers.progress import run
 from solvers.singularities.budget import Singularity
 
@@ -34,7 +34,7 @@ def test_a_saved_document_opens_as_itself(tmp_path: Path) -> None:
     )
     path = tmp_path / "disk.json"
     edited.to_case().save(path)
-    again = run(open_target(str(path)))
+    again = run(open_target(Opening(str(path))))
     assert again.name == "disk"
     assert [(s.valence, s.locked) for s in again.singularities] == [(3, False), (6, True)]
     np.testing.assert_allclose(

@@ -2,12 +2,19 @@ import numpy as np
 import pytest
 
 from crossview.cases.model import Case
-from crossview.session.commands import AddSingularities, ChangeValence, RemoveSingularities
+from crossview.session.commands import (
+    AddSingularities,
+    ChangeValence,
+    ChooseMethod,
+    RemoveSingularities,
+)
 from crossview.session.document import Document
-from crossview.session.mending import mendings
+from crossview.session.mending import mend, mendings
 from solvers.progress import run
+from solvers.remedies import ANISOTROPIC, RepairSurface
 from solvers.singularities.budget import Singularity
 from solvers.singularities.placing import far_points
+from solvers.validity.make_valid import ValidityError, make_valid
 
 
 def document(surface: dict, *singularities: tuple[list[float], int]) -> Document:
@@ -20,7 +27,7 @@ def test_a_bare_sphere_is_offered_one_or_all_eight() -> None:
     one, all_eight, distributed = mendings(sphere)
     assert (one.label, all_eight.label) == ("Add one valence 3", "Add all 8 valence 3")
     assert distributed.label == "Distribute the missing index"
-    mended = run(all_eight.make()).apply(sphere)
+    mended = run(mend(sphere, all_eight)).apply(sphere)
     assert mended.budget.satisfied
     positions = mended.surface.positions([s.point for s in mended.singularities])
     gaps = np.linalg.norm(positions[:, None] - positions, axis=2)[np.triu_indices(8, 1)]
@@ -38,7 +45,7 @@ def test_each_offer_of_one_step_brings_the_sum_nearer() -> None:
         offers = mendings(configuration)
         assert offers
         for offer in offers:
-            changed = run(offer.make()).apply(configuration)
+            changed = run(mend(configuration, offer)).apply(configuration)
             assert abs(changed.budget.missing) < abs(configuration.budget.missing)
 
 
@@ -46,19 +53,31 @@ def test_a_change_of_valence_is_offered_when_one_can_take_it_all() -> None:
     torus = document({"builtin": "torus"}, ([1.4, 0.0, 0.0], 6), ([-1.4, 0.0, 0.0], 3))
     labels = {offer.label: offer for offer in mendings(torus)}
     assert "Make #2 a valence 2" in labels
-    assert run(labels["Make #2 a valence 2"].make()) == ChangeValence(1, 2)
+    assert run(mend(torus, labels["Make #2 a valence 2"])) == ChangeValence(1, 2)
 
 
 def test_one_that_would_become_regular_is_offered_to_go() -> None:
     torus = document({"builtin": "torus"}, ([1.4, 0.0, 0.0], 5))
     labels = {offer.label: offer for offer in mendings(torus)}
-    assert run(labels["Delete #1"].make()) == RemoveSingularities(frozenset({0}))
+    assert run(mend(torus, labels["Delete #1"])) == RemoveSingularities(frozenset({0}))
 
 
 def test_locked_ones_are_left_alone() -> None:
     torus = document({"builtin": "torus"}, ([1.4, 0.0, 0.0], 5))
     locked = torus.with_singularities([Singularity(torus.singularities[0].point, 5, locked=True)])
-    assert all(isinstance(run(o.make()), AddSingularities) for o in mendings(locked))
+    assert all(isinstance(run(mend(locked, o)), AddSingularities) for o in mendings(locked))
+
+
+def test_what_an_error_of_the_document_offers_becomes_a_command() -> None:
+    torus = document({"builtin": "torus"}, ([1.4, 0.0, 0.0], 5), ([-1.4, 0.0, 0.0], 3))
+    assert run(mend(torus, ANISOTROPIC)) == ChooseMethod("anisotropic")
+    with pytest.raises(ValidityError) as refused:
+        run(make_valid(torus.surface, torus.singularities))
+    (pair,) = refused.value.remedies
+    valid = run(mend(torus, pair)).apply(torus)
+    assert [s.valence for s in valid.singularities] == [5, 3, 3, 5]
+    with pytest.raises(TypeError):  # the window repairs files, no document does
+        run(mend(torus, RepairSurface("repair it")))
 
 
 def test_far_points_keep_off_the_boundary_and_each_other() -> None:

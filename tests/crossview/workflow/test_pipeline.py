@@ -76,7 +76,7 @@ def test_singularities_become_vertices_where_they_were_placed() -> None:
 def test_a_missed_budget_is_told_before_anything_is_computed() -> None:
     problem = Problem.from_case(annulus(3, 3))
     steps = []
-    with pytest.raises(SingularityError, match=r"2 of 0: add 2 valence 5 or .* or make #1"):
+    with pytest.raises(SingularityError, match=r"2 of 0: add 2 valence 5 or .* or make #2"):
         run(Pipeline().solve(problem), steps.append)
     assert steps == []
 

@@ -12,13 +12,14 @@ from solvers.errors import SingularityError
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.primitives import BUILTIN
 from solvers.progress import Progress, run
+from solvers.remedies import ANISOTROPIC, UseMethod
 from solvers.singularities.budget import Singularity, default_corners
 from solvers.singularities.placing import far_points
 from solvers.surface.geodesics import straightest
 from solvers.surface.points import SurfacePoint
 from solvers.surface.refinement import refine_at
 from solvers.surface.trisurface import TriSurface
-from solvers.validity.make_valid import Moved, ValidityError, make_valid
+from solvers.validity.make_valid import Moved, PlaceAnew, ValidityError, make_valid
 from tests.solvers.suite import SURFACES, at_vertices, separated
 
 
@@ -137,20 +138,20 @@ def test_what_helps_is_offered_and_was_tried() -> None:
     annulus, start = configuration("annulus", 3)
     locked = [Singularity(s.point, s.valence, locked=True) for s in start]
     for surface, singularities, kinds in (
-        (torus, at_vertices(torus, [10, 400], [3, 5]), ["pair"]),
-        (annulus, locked, ["pair", "anisotropic"]),
+        (torus, at_vertices(torus, [10, 400], [3, 5]), [PlaceAnew]),
+        (annulus, locked, [PlaceAnew, UseMethod]),
     ):
         with pytest.raises(ValidityError) as raised:
             run(make_valid(surface, singularities))
         error = raised.value
-        assert [offer.kind for offer in error.offers] == kinds
-        pair = error.offers[0]
+        assert [type(remedy) for remedy in error.remedies] == kinds
+        pair = error.remedies[0]
         assert pair.label.startswith("Add a pair of 3 and 5 near (")
-        assert pair.label[1:] in str(error)
+        assert pair.words in str(error)
         assert len(pair.singularities) == len(singularities) + 2
         assert fresh(surface, pair.singularities) < 1e-6
     assert error.condition == 0
-    assert error.offers[1].singularities is None
+    assert error.remedies[1] == ANISOTROPIC
     assert list(pair.singularities[:-2]) == locked
 
 

@@ -1,0 +1,102 @@
+"""Which buttons an error gets: decided by the kinds of its remedies, not by any word."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from crossview.gui.state import Message, ShowWhere
+from crossview.gui.store import offered
+from crossview.session.opening import Opening
+from crossview.workflow.quads import MeshOptions
+from solvers.errors import CrossviewError, SurfaceError
+from solvers.layouts.errors import LayoutError
+from solvers.remedies import ANISOTROPIC, MAKE_VALID, RepairSurface, TakeLargest
+from tests.windowing import Hand
+
+FILE = Opening("bad.obj")
+BAD = SurfaceError(
+    "bad", "triangle 7", elements=[7], kind="faces", remedies=[RepairSurface("repair it")]
+)
+
+
+def kinds(error: CrossviewError, tried=None, method: str = "isotropic") -> list[type]:
+    return [type(remedy) for remedy in offered(error, tried, method)]
+
+
+@pytest.mark.parametrize(
+    ("error", "tried"),
+    [
+        (BAD, FILE),
+        (SurfaceError("two pieces", remedies=[TakeLargest("choose the largest")]), FILE),
+        (LayoutError("no quads", remedies=[MAKE_VALID, ANISOTROPIC]), MeshOptions()),
+    ],
+)
+def test_other_words_make_the_same_buttons(error, tried) -> None:
+    before = kinds(error, tried)
+    assert before
+    error.remedies = tuple(replace(remedy, words="etwas anderes") for remedy in error.remedies)
+    assert kinds(error, tried) == before
+
+
+def test_words_alone_make_no_button() -> None:
+    for advice in ("repair the surface", "choose the largest", "make the configuration valid"):
+        assert kinds(SurfaceError("bad", advice=advice), FILE) == []
+
+
+def test_only_what_can_be_done_now_is_offered() -> None:
+    assert kinds(BAD, FILE) == [RepairSurface, ShowWhere]
+    # repaired already: its triangles are no longer numbered as in the file
+    assert kinds(BAD, replace(FILE, repair=True)) == []
+    assert kinds(BAD) == []  # nothing was opened
+    refused = LayoutError("no quads", remedies=[MAKE_VALID, ANISOTROPIC])
+    assert kinds(refused) == [type(MAKE_VALID), type(ANISOTROPIC)]
+    assert kinds(refused, method="anisotropic") == [type(MAKE_VALID)]
+
+
+def test_where_it_is_wrong_is_shown_by_the_numbers_of_the_file() -> None:
+    _, where = offered(BAD, FILE, "isotropic")
+    assert isinstance(where, ShowWhere)
+    np.testing.assert_array_equal(where.elements.faces, [7])
+
+
+def test_a_verdict_in_other_words_leads_to_the_same_quads(hand: Hand) -> None:
+    """The whole way: the message's buttons carry out their kinds."""
+    hand.open("annulus-far")
+    refused = LayoutError("?", remedies=[replace(MAKE_VALID, words="!")])
+    hand.window.workspace.fail(refused, "mesh", MeshOptions(target_quads=300))
+    (button,) = hand.window.centre.message_bar.action_buttons
+    assert button.text() == "Make valid"
+    button.click()
+    hand.wait(lambda: hand.state.made.quads is not None)
+    assert hand.state.valid
+
+
+def test_quads_are_not_waited_for_after_a_stop(hand: Hand) -> None:
+    """Whatever is said of it, and only then."""
+    for message, waited in (
+        (Message("Halt", "stop", "info", stopped=True), False),
+        (Message("Stopped, as a word", "hint", "info"), True),
+    ):
+        hand.open("disk-4")
+        hand.window.workspace.meshing.wait_for(MeshOptions(target_quads=300))
+        hand.window.workspace.set(message=message)
+        hand.window.workspace.set_layer("H", visible=True)
+        hand.wait()
+        assert (hand.state.made.quads is not None) == waited
+
+
+def test_a_wrong_file_is_repaired_and_its_largest_piece_taken(hand: Hand, tmp_path: Path) -> None:
+    """Both at once are wrong: the second opening keeps what the first has chosen."""
+    path = tmp_path / "bad.obj"
+    path.write_text(
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 5 1 0\n"
+        "f 1 2 3\nf 1 3 4\nf 1 3 4\nf 5 6 7\n"
+    )
+    hand.open(str(path))
+    bar = hand.window.centre.message_bar
+    for label in ("Repair", "Use the largest piece"):
+        next(button for button in bar.action_buttons if button.text() == label).click()
+        hand.wait()
+    assert hand.state.document.surface.n_faces == 2
