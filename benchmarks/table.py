@@ -22,7 +22,7 @@ from crossview.workflow.problem import Problem
 from solvers.fields.aligned import AlignedField, aligned_field
 from solvers.fields.alternating import alternate
 from solvers.fields.anisotropic import Iterate, MinimumNormNewton
-from solvers.fields.isotropic import IsotropicSolver
+from solvers.fields.prepared import prepare
 from solvers.primitives import BUILTIN
 from solvers.progress import run
 from solvers.singularities.budget import Singularity, default_corners
@@ -81,8 +81,7 @@ def made(name: str, surface: TriSurface, valences: list[int], gap: float) -> Ent
 
 
 def row(entry: Entry) -> str:
-    solver = IsotropicSolver(entry.surface, flips=False)
-    aligned = aligned_field(solver, entry.singularities)
+    aligned = aligned_field(prepare(entry.surface, entry.singularities, refine=0))
     worst = np.degrees(np.abs(aligned.isotropic.defects).max(initial=0.0))
     newton, seconds = timed(lambda: newton_from_zero(aligned))
     cells = [

@@ -18,7 +18,7 @@ from solvers.algebra.operators import stiffness
 from solvers.fields.aligned import AlignedField, aligned_field
 from solvers.fields.anisotropic import MinimumNormNewton, NewtonStep
 from solvers.fields.integrable import anisotropic_field
-from solvers.fields.isotropic import IsotropicSolver
+from solvers.fields.prepared import prepare
 from solvers.primitives import annulus
 from solvers.progress import run
 from solvers.singularities.budget import Singularity
@@ -58,7 +58,7 @@ def configured(n: int) -> AlignedField:
             x = np.array([radius * np.cos(angle), radius * np.sin(angle), 0.0])
             vertex = int(np.linalg.norm(made.vertices - x, axis=1).argmin())
             singularities.append(Singularity(made.point_at_vertex(vertex), valence))
-    return aligned_field(IsotropicSolver(made, flips=False), singularities)
+    return aligned_field(prepare(made, singularities, refine=0))
 
 
 @cache

@@ -17,10 +17,9 @@ from numpy.typing import NDArray
 from crossview.session.document import Document
 from crossview.workflow.marking import Marking
 from crossview.workflow.pipeline import Solution
-from crossview.workflow.problem import Problem
-from crossview.workflow.solution import Stage
 from solvers.fields.crossfield import CrossField
 from solvers.fields.isotropic import IsotropicSolver
+from solvers.fields.prepared import PreparedSurface
 from solvers.progress import Progress
 from solvers.singularities.budget import Singularity
 from solvers.surface.points import SurfacePoint
@@ -54,19 +53,17 @@ class LiveBase:
     @classmethod
     def from_solution(cls, solution: Solution) -> LiveBase:
         """Keep the factor of `solution`."""
-        given, placed = solution.problem.singularities, solution.singularities
-        known = {s.point: at.point for s, at in zip(given, placed, strict=True)}
-        problem = solution.problem
-        lift = solution.refinement.lift
-        return cls(problem.surface, solution.solver, lift, problem.marking, known)
+        return cls.prepared(solution.prepared, solution.solver, solution.problem.marking)
 
     @classmethod
-    def from_stage(cls, stage: Stage, problem: Problem) -> LiveBase:
-        """Keep the factor that `problem`, not isotropic, is being solved with."""
-        given, placed = problem.singularities, stage.placed(problem)
-        known = {s.point: at.point for s, at in zip(given, placed, strict=True)}
-        solver, lift = stage.solver_for(problem, flips=False), stage.refinement.lift
-        return cls(problem.surface, solver, lift, problem.marking, known)
+    def prepared(
+        cls, prepared: PreparedSurface, solver: IsotropicSolver, marking: Marking
+    ) -> LiveBase:
+        """Keep a factor of a surface that was prepared for singularities."""
+        placed = (s.point for s in prepared.singularities)
+        known = dict(zip(prepared.places, placed, strict=True))
+        refinement = prepared.refinement
+        return cls(refinement.coarse, solver, refinement.lift, marking, known)
 
     @property
     def surface(self) -> TriSurface:

@@ -73,12 +73,13 @@ class MethodSolver:
             nonlocal base, drawn
             if not isinstance(step, FieldStep):
                 return step
-            base = base or self._base(problem)
+            aligned = step.so_far.aligned
+            base = base or LiveBase.prepared(aligned.prepared, aligned.solver, problem.marking)
             field = None
             if time.monotonic() - drawn >= DRAWN_EVERY:
                 field = with_directions(step.so_far.field)
                 drawn = time.monotonic()
-            start = self._start_of(step.so_far.aligned)
+            start = self._start_of(aligned)
             return Iterate(step.stage, step.fraction, step, base, start, field)
 
         return self._ready((yield from relayed(self._pipeline.solve(problem), show)))
@@ -99,9 +100,3 @@ class MethodSolver:
             start = IntegratedField(aligned, aligned.start).field
             self._start = (aligned, with_directions(start))
         return self._start[1]
-
-    def _base(self, problem: Problem) -> LiveBase:
-        stage = self._pipeline.stage
-        if stage is None:
-            raise RuntimeError("a field was shown before there was a surface")
-        return LiveBase.from_stage(stage, problem)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Generator
-from dataclasses import replace
 
 import numpy as np
 
@@ -11,14 +10,11 @@ from crossview.cases.model import CaseError, Options
 from crossview.workflow.sizes import refined_sizes
 from solvers.fields.aligned import AlignedField, IntegratedField, aligned_field
 from solvers.fields.connection import QUARTER
-from solvers.fields.crossfield import CrossField
 from solvers.fields.integrable import alternating_field, anisotropic_field
-from solvers.fields.isotropic import IsotropicSolver
+from solvers.fields.prepared import PreparedSurface
 from solvers.fields.verdict import INTEGRABLE
 from solvers.maps.seamless import seamless_map
 from solvers.progress import Progress, relayed
-from solvers.singularities.budget import Singularity
-from solvers.surface.refinement import refine_everywhere
 from solvers.surface.triangulation import FloatArray
 
 Integration = Generator[Progress, None, IntegratedField]
@@ -57,19 +53,13 @@ def growth_when_refined(
     CaseError
         Turns are asked for around handles: the refined mesh may have other handle loops.
     """
-    field = coarse.field
-    refinement = refine_everywhere(field.surface)
-    fine = refinement.surface
+    field, prepared = coarse.field, coarse.aligned.prepared.refined()
     if field.surface.genus and any(options.turns or ()):
         raise CaseError(
             "verify cannot follow turns on a surface with handles", "options", "leave one out"
         )
-    features = coarse.aligned.integrability.discretization.features.refined(refinement)
-    solver = IsotropicSolver(fine, field.corners, flips=False, features=features)
-    singularities = [_at_same_vertex(s, field, solver) for s in field.singularities]
-    turns = _same_turns(coarse.aligned, solver, singularities)
-    again = aligned_field(solver, singularities, turns)
-    finer = None if sizes is None else refined_sizes(sizes, refinement)
+    again = aligned_field(prepared, _same_turns(coarse.aligned, prepared))
+    finer = None if sizes is None else refined_sizes(sizes, prepared.refinement)
     solved = yield from _unseen(integrate(coarse.method, again, options, finer))
     before, after = field.aspect_roughness, solved.field.aspect_roughness
     return after / before if before > LEAST_ROUGHNESS else 1.0
@@ -82,26 +72,16 @@ def inverted_triangles(integrated: IntegratedField | None) -> int | None:
     return len(seamless_map(integrated).flipped)
 
 
-def _at_same_vertex(s: Singularity, field: CrossField, solver: IsotropicSolver) -> Singularity:
-    corner = int(np.argmax(s.point.barycentric))
-    vertex = int(field.surface.faces[s.point.face, corner])
-    return replace(s, point=solver.surface.point_at_vertex(vertex))
-
-
-def _same_turns(
-    aligned: AlignedField,
-    solver: IsotropicSolver,
-    singularities: list[Singularity],
-) -> list[int] | None:
+def _same_turns(aligned: AlignedField, finer: PreparedSurface) -> list[int] | None:
     """The turns that give the same layout where a defect is next to 45 degrees.
 
     A defect just below 45 degrees may come out just above -45 on the refined mesh. Around handles
     the two meshes may have different loops, and the nearest turns are taken on each.
     """
     before = aligned.isotropic.defects
-    if solver.surface.genus or not len(before):
+    if finer.surface.genus or not len(before):
         return None
-    after = solver.holonomy.defects(singularities)
+    after = finer.operators.own.holonomy.defects(finer.singularities)
     shift = np.rint((after - before) / QUARTER).astype(int)
     return [int(turn) for turn in shift + np.asarray(aligned.turns)]
 

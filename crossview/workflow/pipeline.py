@@ -14,15 +14,17 @@ from crossview.cases.model import Case
 from crossview.workflow.methods import growth_when_refined, integrate, inverted_triangles
 from crossview.workflow.problem import Problem, problems_of
 from crossview.workflow.sizes import read_sizes, refined_sizes
-from crossview.workflow.solution import Solution, Stage
+from crossview.workflow.solution import Solution
 from solvers.errors import CrossviewError
-from solvers.fields.aligned import IntegratedField
+from solvers.fields.aligned import AlignedField, IntegratedField, aligned_field
 from solvers.fields.crossfield import CrossField
 from solvers.fields.integrable import FieldStep
+from solvers.fields.isotropic import IsotropicSolver
+from solvers.fields.prepared import PreparedSurface, prepare
 from solvers.fields.verdict import judge
+from solvers.layouts.turning import joining
 from solvers.progress import Progress, between
 from solvers.singularities.budget import require_budget
-from solvers.surface.refinement import refine_at
 from solvers.surface.triangulation import FloatArray
 
 __all__ = ["Pipeline", "Solution", "of_component", "solve_case"]
@@ -35,7 +37,7 @@ class Pipeline:
     """Solves problems one after the other and keeps what the next one can use."""
 
     def __init__(self) -> None:
-        self._stage: Stage | None = None
+        self._prepared: PreparedSurface | None = None
         self._problem: Problem | None = None
         self._kept: dict[str, Solution] = {}
         self._sizes: FloatArray | None = None  # of the last anisotropic solution
@@ -62,20 +64,24 @@ class Pipeline:
         seconds: dict[str, float] = {}
         yield Progress("refining at the singularities", 0.0)
         with _timed(seconds, "refine"):
-            stage = self._prepared(problem)
+            prepared = self._prepared_for(problem)
         yield Progress("factorising", 0.1)
         isotropic = problem.method == "isotropic"
         with _timed(seconds, "factor"):
-            stage.solver(flips=isotropic)
+            solver = prepared.operators.delaunay if isotropic else prepared.operators.own
         if isotropic:
             yield Progress("solving", 0.6)
             with _timed(seconds, "solve"):
-                field = stage.solver_for(problem, flips=True).solve(stage.placed(problem))
+                solver = joining(solver, prepared.singularities)
+                field = solver.solve(prepared.singularities)
             yield Progress("checking the holonomy", 0.8)
-            solution = _solution(stage, problem, field, seconds)
+            solution = _solution(problem, prepared, solver, field, seconds)
         else:
-            finer = None if sizes is None else refined_sizes(sizes, stage.refinement)
-            solution = yield from _integrated(stage, problem, finer, seconds)
+            yield Progress("aligning with the boundaries", 0.2)
+            with _timed(seconds, "align"):
+                aligned = self._aligned(problem, prepared)
+            finer = None if sizes is None else refined_sizes(sizes, prepared.refinement)
+            solution = yield from _integrated(aligned, problem, finer, seconds)
             self._sizes = sizes if problem.method == "anisotropic" else self._sizes
         self._kept[problem.method] = solution
         return solution
@@ -88,14 +94,9 @@ class Pipeline:
         CrossviewError
             There has been none.
         """
-        if self._stage is None or self._problem is None:
+        if self._problem is None:
             raise CrossviewError("nothing has been solved yet")
-        return _solution(self._stage, self._problem, step.so_far, {})
-
-    @property
-    def stage(self) -> Stage | None:
-        """The refined surface of the last `solve`, or of the one that runs."""
-        return self._stage
+        return _integrated_solution(self._problem, step.so_far, {})
 
     def _kept_by(self, problem: Problem, sizes: FloatArray | None) -> Solution | None:
         """The last solution of this very problem by its method."""
@@ -108,28 +109,38 @@ class Pipeline:
         same = self._sizes is not None and np.array_equal(sizes, self._sizes)
         return kept if same else None
 
-    def _prepared(self, problem: Problem) -> Stage:
-        """The stage for a problem, the last one if it serves; forgets what has become wrong."""
+    def _prepared_for(self, problem: Problem) -> PreparedSurface:
+        """The surface prepared for a problem, the last one's if it serves; forgets old results."""
         before, self._problem = self._problem, problem
-        if self._stage is None or not self._stage.serves(problem):
-            points = [s.point for s in problem.singularities]
-            refinement = refine_at(
-                problem.surface, points, problem.options.refine, problem.features.edges
+        if self._prepared is not None and before is not None and problem.same_places(before):
+            self._prepared = self._prepared.with_valences(problem.singularities)
+        else:
+            self._prepared = prepare(
+                problem.surface,
+                problem.singularities,
+                refine=problem.options.refine,
+                corners=problem.chosen_corners,
+                features=problem.features,
             )
-            self._stage = Stage(problem, refinement)
         if before is None or not problem.same_but_method(before):
             self._kept = {}
-        return self._stage
+        return self._prepared
+
+    def _aligned(self, problem: Problem, prepared: PreparedSurface) -> AlignedField:
+        """The aligned field of a problem, that of another method where it has been solved."""
+        for kept in self._kept.values():
+            if kept.integrated is not None:
+                return kept.integrated.aligned
+        turned = joining(prepared.operators.own, prepared.singularities)
+        like = turned.solve(prepared.singularities)
+        return aligned_field(prepared, problem.options.turns, like=like)
 
 
 def _integrated(
-    stage: Stage, problem: Problem, sizes: FloatArray | None, seconds: dict[str, float]
+    aligned: AlignedField, problem: Problem, sizes: FloatArray | None, seconds: dict[str, float]
 ) -> Solving:
     """Solve by a method that starts from the aligned field."""
-    yield Progress("aligning with the boundaries", 0.2)
     options = problem.options
-    with _timed(seconds, "align"):
-        aligned = stage.aligned(problem)
     iteration = integrate(problem.method, aligned, options, sizes)
     with _timed(seconds, "solve"):
         integrated = yield from between(iteration, 0.3, 0.6 if options.verify else 0.9)
@@ -139,7 +150,7 @@ def _integrated(
             again = growth_when_refined(integrated, options, sizes)
             growth = yield from between(again, 0.6, 0.9)
     yield Progress("judging", 0.9)
-    return _solution(stage, problem, integrated, seconds, growth)
+    return _integrated_solution(problem, integrated, seconds, growth)
 
 
 @contextmanager
@@ -173,36 +184,34 @@ def solve_case(case: Case) -> Generator[Progress, None, tuple[Solution, ...]]:
     return tuple(solutions)
 
 
-def _solution(
-    stage: Stage,
+def _integrated_solution(
     problem: Problem,
-    found: CrossField | IntegratedField,
+    integrated: IntegratedField,
     seconds: dict[str, float],
     growth: float | None = None,
 ) -> Solution:
+    aligned, field = integrated.aligned, integrated.field
+    return _solution(problem, aligned.prepared, aligned.solver, field, seconds, integrated, growth)
+
+
+def _solution(
+    problem: Problem,
+    prepared: PreparedSurface,
+    solver: IsotropicSolver,
+    field: CrossField,
+    seconds: dict[str, float],
+    integrated: IntegratedField | None = None,
+    growth: float | None = None,
+) -> Solution:
     """Put together what a method found with the holonomy and the verdict."""
-    integrated = found if isinstance(found, IntegratedField) else None
-    field = found if isinstance(found, CrossField) else found.field
-    solver = stage.solver_for(problem, flips=integrated is None)
-    singularities = stage.placed(problem)
     with _timed(seconds, "holonomy"):
-        defects = solver.holonomy.defects(singularities)
+        defects = solver.holonomy.defects(prepared.singularities)
     with _timed(seconds, "verdict"):
         tolerance = float(np.radians(problem.options.tolerance_degrees))
         inverted = inverted_triangles(integrated)
         verdict = judge(field, inverted, growth, tolerance)
     return Solution(
-        problem,
-        stage.refinement,
-        solver,
-        singularities,
-        field,
-        defects,
-        seconds,
-        integrated,
-        verdict,
-        growth,
-        inverted,
+        problem, prepared, solver, field, defects, seconds, integrated, verdict, growth, inverted
     )
 
 

@@ -83,6 +83,16 @@ class Problem:
         """The edges that crosses are to follow."""
         return self.marking.on(self.surface)
 
+    def same_places(self, other: Problem) -> bool:
+        """Whether a surface prepared for the other problem serves this one: valences may differ."""
+        return (
+            self.surface is other.surface
+            and self.options.refine == other.options.refine
+            and [s.point for s in self.singularities] == [s.point for s in other.singularities]
+            and self.chosen_corners == other.chosen_corners
+            and self.marking == other.marking
+        )
+
     def same_but_method(self, other: Problem) -> bool:
         """Whether the other problem differs from this one in its method at most."""
         return (

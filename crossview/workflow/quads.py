@@ -13,7 +13,6 @@ from crossview.workflow.solution import Solution
 from solvers.errors import CrossviewError
 from solvers.fields.aligned import IntegratedField, aligned_field
 from solvers.fields.crossfield import CrossField
-from solvers.fields.isotropic import IsotropicSolver
 from solvers.layouts.errors import LayoutError
 from solvers.layouts.layout import QuadLayout, quad_layout
 from solvers.layouts.separatrices import Separatrices, field_separatrices
@@ -262,14 +261,5 @@ def _integrated(solution: Solution) -> IntegratedField:
     """The field in a form that has a map; an isotropic one may have to be solved again."""
     if solution.integrated is not None:
         return solution.integrated
-    solver = solution.solver
-    if solver.discretization.delaunay.n_flips:  # the map lives on the surface's own triangles
-        corners = solution.problem.chosen_corners
-        features = solution.features
-        made = IsotropicSolver(solution.surface, corners, flips=False, features=features)
-        solver = made
-        if solver.may_turn:  # each triangulation has its own direction to start from
-            found = made.solve(solution.singularities).theta - solution.field.theta
-            solver = made.turned(-float(np.angle(np.exp(4j * found).mean())) / 4)
-    aligned = aligned_field(solver, solution.singularities)
+    aligned = aligned_field(solution.prepared, like=solution.field)
     return IntegratedField(aligned, aligned.start)

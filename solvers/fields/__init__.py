@@ -7,6 +7,7 @@ from solvers.fields.crossfield import Convergence, CrossField
 from solvers.fields.holonomy import Holonomy
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.fields.natural import CrossesStep, natural_singularities
+from solvers.fields.prepared import PreparedSurface, prepare
 
 __all__ = [
     "Condition",
@@ -15,5 +16,7 @@ __all__ = [
     "CrossesStep",
     "Holonomy",
     "IsotropicSolver",
+    "PreparedSurface",
     "natural_singularities",
+    "prepare",
 ]

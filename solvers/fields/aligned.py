@@ -20,7 +20,7 @@ from solvers.fields.crossfield import Convergence, CrossField
 from solvers.fields.feature_alignment import align_with_features
 from solvers.fields.integrability import Integrability
 from solvers.fields.isotropic import IsotropicSolver
-from solvers.singularities.budget import Singularity
+from solvers.fields.prepared import PreparedSurface
 from solvers.surface.triangulation import FloatArray, IntArray
 
 FORCED = np.radians(60)
@@ -36,6 +36,10 @@ class AlignedField:
 
     Parameters
     ----------
+    prepared : PreparedSurface
+        The surface and the configuration.
+    solver : IsotropicSolver
+        On the surface's own triangles; turned as the field is.
     isotropic : CrossField
         The isotropic field of the same configuration.
     correction : (m, 3) float array
@@ -49,6 +53,8 @@ class AlignedField:
         neither.
     """
 
+    prepared: PreparedSurface
+    solver: IsotropicSolver
     isotropic: CrossField
     correction: FloatArray
     integrability: Integrability
@@ -75,9 +81,8 @@ class AlignedField:
         turned = t.angles - (i.offsets[:, [2, 0, 1]] - i.offsets)
         off = np.abs(np.bincount(sector, turned.reshape(-1)) - angle)
         regular = features.degrees > 0
-        faces = self.isotropic.surface.faces
         for s in self.isotropic.singularities:
-            regular[faces[s.point.face, int(np.argmax(s.point.barycentric))]] = False
+            regular[self.isotropic.surface.nearest_vertex(s.point)] = False
         return np.unique(vertex[(off > FORCED) & regular[vertex]])
 
     @property
@@ -138,22 +143,24 @@ class IntegratedField:
 
 
 def aligned_field(
-    solver: IsotropicSolver,
-    singularities: Sequence[Singularity],
+    prepared: PreparedSurface,
     turns: Sequence[int] | None = None,
+    *,
+    like: CrossField | None = None,
 ) -> AlignedField:
     """Align the field of a configuration with every boundary, handle and feature.
 
     Parameters
     ----------
-    solver : IsotropicSolver
-        Made without flips, so that the field lives on the surface's own triangles.
-    singularities : sequence of Singularity
-        At vertices.
+    prepared : PreparedSurface
+        The surface and the configuration, as `prepare` makes them.
     turns : sequence of int, optional
         Quarter turns to add over each condition's path; by default none, which is the multiple
         nearest to the isotropic rotation; with features those that leave the field smoothest.
         Others are different layouts.
+    like : CrossField, optional
+        On the same surface. Where neither a boundary nor a feature fixes the direction of the
+        crosses, they are turned to be nearest to those of this field.
 
     Returns
     -------
@@ -166,6 +173,7 @@ def aligned_field(
     SingularityError
         As `IsotropicSolver.solve`.
     """
+    solver, singularities = prepared.operators.own, prepared.singularities
     field, d = solver.solve(singularities), solver.discretization
     if turns is not None and len(turns) != len(field.defects):
         raise CrossviewError(
@@ -173,6 +181,9 @@ def aligned_field(
             "turns",
             "give one whole number for each condition",
         )
+    if like is not None and solver.may_turn:
+        solver = solver.turned(field.turn_to(like))
+        field = solver.solve(singularities)
     conjugate, turned = field.H[solver.surface.faces], None
     if len(d.features):
         found = align_with_features(solver.holonomy, conjugate, field.defects, turns)
@@ -184,4 +195,4 @@ def aligned_field(
     integrability = Integrability(
         d, conjugate + correction, features=d.feature_halfedges, turned=turned
     )
-    return AlignedField(field, correction, integrability, chosen, turned)
+    return AlignedField(prepared, solver, field, correction, integrability, chosen, turned)

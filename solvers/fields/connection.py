@@ -67,9 +67,9 @@ class Discretization:
     ----------
     surface : TriSurface
         The surface.
-    flips : bool, optional
-        Whether to flip to Delaunay; without, the triangulation is the surface's own, and the
-        operator may have negative weights where its triangles are obtuse.
+    delaunay : bool, optional
+        Whether to flip edges to Delaunay; without, the triangulation is the surface's own, and
+        the operator may have negative weights where its triangles are obtuse.
     features : Features, optional
         Of the surface; by default none.
 
@@ -96,7 +96,7 @@ class Discretization:
     """
 
     def __init__(
-        self, surface: TriSurface, *, flips: bool = True, features: Features | None = None
+        self, surface: TriSurface, *, delaunay: bool = True, features: Features | None = None
     ) -> None:
         self.surface = surface
         self.features = no_features(surface) if features is None else features
@@ -106,7 +106,7 @@ class Discretization:
         marked = np.array([*starts, *self.handles.closing], dtype=np.int64)
         numbered = [_numbered(h, own) for h in (self.features.halfedges, marked)]
         chain = np.concatenate([self.handles.chain, *numbered])
-        fixed = chain[:-1] != 0 if flips else np.ones((1, len(own.twin)), dtype=bool)
+        fixed = chain[:-1] != 0 if delaunay else np.ones((1, len(own.twin)), dtype=bool)
         self.delaunay = DelaunayTriangulation(own, fixed, chain)
         self.triangulation: IntrinsicTriangulation = self.delaunay.triangulation
         self.chain = self.delaunay.chain[:-2]

@@ -130,7 +130,7 @@ class CrossField:
         """Largest |H2 - H1| away from the triangles around singularities."""
         singular = np.zeros(self.surface.n_vertices, dtype=bool)
         for s in self.singularities:
-            singular[self.surface.faces[s.point.face, int(np.argmax(s.point.barycentric))]] = True
+            singular[self.surface.nearest_vertex(s.point)] = True
         away = ~singular[self.surface.faces].any(axis=1)
         return float(self.log_aspect[away].max(initial=0.0))
 
@@ -150,6 +150,22 @@ class CrossField:
         """(m, 3) unit vector of the second branch, 90 degrees from the first."""
         along, across = self.surface.face_frames
         return np.cos(self.theta)[:, None] * across - np.sin(self.theta)[:, None] * along
+
+    def turn_to(self, other: CrossField) -> float:
+        """Return the one turn of all crosses that brings them nearest to those of another field.
+
+        Parameters
+        ----------
+        other : CrossField
+            On the same surface.
+
+        Returns
+        -------
+        float
+            Radians in (-pi/4, pi/4]; of the mean fourth power, weighted by area.
+        """
+        power = self.surface.face_areas @ np.exp(4j * (other.theta - self.theta))
+        return float(np.angle(power)) / 4
 
     @property
     def index_sum(self) -> int:

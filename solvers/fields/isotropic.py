@@ -37,7 +37,7 @@ class IsotropicSolver:
     corners : mapping of int to int, optional
         Index of each boundary vertex where the field turns; by default what `default_corners`
         reads from the interior angles.
-    flips : bool, optional
+    delaunay : bool, optional
         As in `Discretization`.
     features : Features, optional
         Of the surface. The field is not aligned with them, but says how far off it is; without
@@ -80,12 +80,12 @@ class IsotropicSolver:
         surface: TriSurface,
         corners: Mapping[int, int] | None = None,
         *,
-        flips: bool = True,
+        delaunay: bool = True,
         features: Features | None = None,
     ) -> None:
         self.surface = surface
         self.corners = dict(default_corners(surface) if corners is None else corners)
-        self.discretization = Discretization(surface, flips=flips, features=features)
+        self.discretization = Discretization(surface, delaunay=delaunay, features=features)
         matrix = stiffness(self.discretization.triangulation)
         # H is unique up to a constant: the first vertex is pinned, the mean subtracted after.
         self.factorization = factorized(matrix[1:, 1:])
@@ -184,10 +184,7 @@ class IsotropicSolver:
             End vertices of each edge of the surface in the cut.
         """
         own = self.surface.triangulation
-        nearest = [
-            int(self.surface.faces[s.point.face, int(np.argmax(s.point.barycentric))])
-            for s in singularities
-        ]
+        nearest = [self.surface.nearest_vertex(s.point) for s in singularities]
         h = cut_graph(
             own,
             self.surface.boundary_loops,

@@ -112,9 +112,8 @@ def starts_at(chart: Chart, nodes: Sequence[Node]) -> Starts:
 
 def singular_nodes(chart: Chart, field: CrossField) -> list[Node]:
     """Return the nodes at the singularities of a field and at its corners."""
-    faces = field.surface.faces
     inside = [
-        node_at(chart, int(faces[s.point.face, int(np.argmax(s.point.barycentric))]), s.valence)
+        node_at(chart, field.surface.nearest_vertex(s.point), s.valence)
         for s in field.singularities
     ]
     return inside + [node_at(chart, v, 2 - k) for v, k in field.corners.items()]

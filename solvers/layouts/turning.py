@@ -2,32 +2,87 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from solvers.algebra.operators import midpoint_offsets
 from solvers.fields.crossfield import CrossField
+from solvers.fields.isotropic import IsotropicSolver
 from solvers.layouts.charts import QUARTER, Chart
 from solvers.layouts.connections import best_turn
 from solvers.layouts.crossings import crossings
 from solvers.layouts.nodes import singular_nodes, starts_at
 from solvers.layouts.tracing import trace
+from solvers.singularities.budget import Singularity
 
 FAR = 1.5
 """Length of the curves that are looked at, in square roots of the area in the map."""
+
+SETTLED, ROUNDS = 1e-4, 5
+"""Turn, radians, after which none more is sought, and how many are at most."""
+
+
+def joining(solver: IsotropicSolver, singularities: Sequence[Singularity]) -> IsotropicSolver:
+    """Return a solver whose crosses are turned so that separatrices of a configuration join.
+
+    Parameters
+    ----------
+    solver : IsotropicSolver
+        Returned as it is where something fixes the direction of its crosses.
+    singularities : sequence of Singularity
+        On its surface.
+    """
+    if not solver.may_turn or not singularities:
+        return solver
+    return solver.turned(joining_turn(solver.solve(singularities)))
 
 
 def joining_turn(field: CrossField) -> float:
     """Return the angle to turn all crosses by so that most neighbours lie on common lines.
 
+    Curves that run along the line between two singularities tell its direction best, so the turn
+    is found again in the field once turned.
+
     Parameters
     ----------
     field : CrossField
-        With nothing that fixes its direction.
+        Isotropic, with nothing that fixes its direction.
 
     Returns
     -------
     float
-        Radians, in (-pi/4, pi/4].
+        Radians.
     """
-    chart = Chart.of_field(field)
+    turn = 0.0
+    for _ in range(ROUNDS):
+        found = _turn(replace(field, theta=field.theta + turn))
+        turn += found
+        if abs(found) < SETTLED:
+            break
+    return turn
+
+
+def _turn(field: CrossField) -> float:
+    chart = _chart(field)
     nodes = singular_nodes(chart, field)
     far = FAR * float(chart.area) ** 0.5
     traces = trace(chart, nodes, starts_at(chart, nodes), 0.0, far)
     return best_turn(traces, crossings(chart, traces.chords), QUARTER / 2)
+
+
+def _chart(field: CrossField) -> Chart:
+    """Return the triangles by the size and the cross at the middle of each side.
+
+    As theta is conjugate to H, two triangles have nearly the same image of the side they share.
+    With that of their barycentres alone, errors along a curve add up to half a degree.
+    """
+    t = field.surface.triangulation
+    size = (field.H[t.faces] + field.H[t.faces[:, [1, 2, 0]]]) / 2
+    angle = t.directions.reshape(-1, 3) - field.theta[:, None] - midpoint_offsets(t, field.H)
+    sides = t.lengths * np.exp(-size + 1j * angle)
+    sides -= sides.mean(axis=1)[:, None]
+    rough = Chart.of_field(field)
+    over = (sides[:, 0].conj() * -sides[:, 2]).imag <= 0  # in next to flat triangles
+    return replace(rough, images=np.where(over[:, None], rough.images, sides))

@@ -47,7 +47,7 @@ def far_points(
     [0.0, 0.0, 0.0]
     """
     graph = _edge_graph(surface)
-    used = [surface.faces[s.point.face][np.argmax(s.point.barycentric)] for s in singularities]
+    used = [surface.nearest_vertex(s.point) for s in singularities]
     sources = np.concatenate([*surface.boundary_loops, np.asarray(used, dtype=np.int64)])
     if sources.size:
         distance = dijkstra(graph, indices=np.unique(sources).astype(np.int64), min_only=True)

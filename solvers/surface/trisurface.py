@@ -251,6 +251,16 @@ class TriSurface:
         weights[h % 3] = 1.0
         return SurfacePoint(h // 3, (weights[0], weights[1], weights[2]))
 
+    def nearest_vertex(self, point: SurfacePoint) -> int:
+        """Return the corner of a point's triangle that the point is at, or weighs most.
+
+        Parameters
+        ----------
+        point : SurfacePoint
+            A point of the surface.
+        """
+        return int(self.faces[point.face, int(np.argmax(point.barycentric))])
+
     @cached_property
     def _halfedge_from(self) -> IntArray:
         h = np.empty(self.n_vertices, dtype=np.int64)

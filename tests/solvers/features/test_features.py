@@ -17,6 +17,7 @@ from solvers.fields.feature_alignment import nearest_integers
 from solvers.fields.integrable import anisotropic_field
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.fields.natural import natural_singularities
+from solvers.fields.prepared import prepare
 from solvers.maps.seamless import seamless_map
 from solvers.primitives import BUILTIN
 from solvers.progress import run
@@ -61,12 +62,7 @@ def solved(
     surface: TriSurface, features: Features, singularities: Sequence[Singularity], refine: int = 2
 ) -> tuple[IntegratedField, IntegratedField]:
     """The aligned and the anisotropic field, refined at the singularities."""
-    places = [s.point for s in singularities]
-    refinement = refine_at(surface, places, refine, features.edges)
-    fine = refinement.surface
-    placed = at_vertices(fine, refinement.vertices.tolist(), [s.valence for s in singularities])
-    solver = IsotropicSolver(fine, flips=False, features=features.refined(refinement))
-    aligned = aligned_field(solver, placed)
+    aligned = aligned_field(prepare(surface, singularities, refine=refine, features=features))
     return IntegratedField(aligned, aligned.start), run(anisotropic_field(aligned))
 
 
@@ -204,8 +200,8 @@ def test_a_cube_with_its_edges_marked_has_a_grid_on_each_side(
 def test_the_isotropic_field_reports_its_misalignment() -> None:
     surface = BUILTIN["cylinder"](n=48)
     along = circle(surface, 0.0)
-    for flips in (True, False):
-        field = IsotropicSolver(surface, flips=flips, features=along).solve([])
+    for delaunay in (True, False):
+        field = IsotropicSolver(surface, delaunay=delaunay, features=along).solve([])
         assert misalignment(field) < 1e-9
     # the field runs around and along the axis; a slanted edge is off by its slope
     ends = surface.vertices[surface.edges]
@@ -213,22 +209,22 @@ def test_the_isotropic_field_reports_its_misalignment() -> None:
         np.linalg.norm(ends[:, 0, :2] - ends[:, 1, :2], axis=1) > 1e-9
     )
     one = no_features(surface).united(np.flatnonzero(slanted)[10:11])
-    field = IsotropicSolver(surface, flips=False, features=one).solve([])
+    field = IsotropicSolver(surface, delaunay=False, features=one).solve([])
     run_along = ends[one.edges[0], 1] - ends[one.edges[0], 0]
     slope = np.degrees(np.arctan2(abs(run_along[2]), np.linalg.norm(run_along[:2])))
     expected = min(slope, 90 - slope)
     assert misalignment(field) == pytest.approx(expected, abs=1)
 
 
-@pytest.mark.parametrize("flips", [True, False])
-def test_where_nothing_else_fixes_the_crosses_they_turn_to_the_features(flips: bool) -> None:
+@pytest.mark.parametrize("delaunay", [True, False])
+def test_where_nothing_else_fixes_the_crosses_they_turn_to_the_features(delaunay: bool) -> None:
     surface = cube()
     slanted = TriSurface(surface.vertices, np.roll(surface.faces, 1, axis=1))
     features = Features(slanted, sharp_edges(slanted, 40))
     corners = at_vertices(slanted, features.corners.tolist(), [3] * 8)
-    field = IsotropicSolver(slanted, flips=flips, features=features).solve(corners)
+    field = IsotropicSolver(slanted, delaunay=delaunay, features=features).solve(corners)
     assert misalignment(field) < 1e-8
-    plain = IsotropicSolver(slanted, flips=flips).solve(corners)
+    plain = IsotropicSolver(slanted, delaunay=delaunay).solve(corners)
     off = np.degrees(wrap(field.theta - plain.theta, np.pi / 2))
     assert np.ptp(off) < 1e-9
     assert np.abs(off).max() > 1  # the first edge of the first triangle is a diagonal
@@ -276,9 +272,9 @@ def test_imposed_turns_are_kept_and_free_ones_are_chosen() -> None:
     ring = np.flatnonzero((np.abs(radius[surface.edges] - level) < 1e-6).all(axis=1))
     features = no_features(surface).united(ring)
     assert len(features.curves) >= 1
-    solver = IsotropicSolver(surface, flips=False, features=features)
-    assert aligned_field(solver, []).turns == (0,)
-    forced = aligned_field(solver, [], [1])
+    prepared = prepare(surface, features=features)
+    assert aligned_field(prepared).turns == (0,)
+    forced = aligned_field(prepared, [1])
     assert forced.turns == (1,)
     assert misalignment(IntegratedField(forced, forced.start).field) < 1e-8
 
@@ -307,11 +303,7 @@ def test_features_of_real_surfaces_keep_budget_and_closing(
     found = run(natural_singularities(surface, "globally-optimal", features=features))
     indices = sum(s.index for s in found) + sum(default_corners(surface).values())
     assert indices == 4 * surface.euler_characteristic
-    refinement = refine_at(surface, [s.point for s in found], 0, features.edges)
-    fine = refinement.surface
-    placed = at_vertices(fine, refinement.vertices.tolist(), [s.valence for s in found])
-    solver = IsotropicSolver(fine, flips=False, features=features.refined(refinement))
-    aligned = aligned_field(solver, placed)
+    aligned = aligned_field(prepare(surface, found, refine=0, features=features))
     field = IntegratedField(aligned, aligned.start).field
     assert misalignment(field) < 1e-6
     assert np.degrees(np.abs(field.boundary_misalignment)).max(initial=0.0) < 1e-6

@@ -11,7 +11,7 @@ from solvers.fields.alternating import alternate
 from solvers.fields.anisotropic import MinimumNormNewton
 from solvers.fields.crossfield import CrossField
 from solvers.fields.integrable import FieldStep, alternating_field, anisotropic_field, by_stages
-from solvers.fields.isotropic import IsotropicSolver
+from solvers.fields.prepared import prepare
 from solvers.fields.verdict import judge
 from solvers.maps.seamless import seamless_map
 from solvers.primitives import BUILTIN
@@ -28,7 +28,7 @@ DISTORTED = ["annulus", "plate", "cylinder", "torus_with_hole", "double_torus", 
 
 
 def aligned(surface: TriSurface, configuration: list[Singularity]) -> AlignedField:
-    return aligned_field(IsotropicSolver(surface, flips=False), configuration)
+    return aligned_field(prepare(surface, configuration, refine=0))
 
 
 @pytest.mark.parametrize("name", DISTORTED)
@@ -54,17 +54,16 @@ def test_the_energy_of_the_aligned_field_is_that_of_its_harmonic_correction() ->
 
 def test_other_turns_are_other_aligned_fields() -> None:
     surface = SURFACES["annulus"]()
-    solver = IsotropicSolver(surface, flips=False)
-    configuration = random_configuration(surface, seed=4)
+    prepared = prepare(surface, random_configuration(surface, seed=4), refine=0)
     energies = []
     for turns in ([-1], [0], [1]):
-        start = aligned_field(solver, configuration, turns)
+        start = aligned_field(prepared, turns)
         field = IntegratedField(start, start.start).field
         assert np.abs(field.boundary_misalignment).max() < 1e-9
         energies.append(field.energy)
     assert energies[1] < min(energies[0], energies[2])
     with pytest.raises(CrossviewError, match="2 turns are given for 1 holonomy conditions"):
-        aligned_field(solver, configuration, [0, 1])
+        aligned_field(prepared, [0, 1])
 
 
 @pytest.mark.parametrize("name", ["annulus", "torus_with_hole", "double_torus", "disk"])

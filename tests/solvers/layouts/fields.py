@@ -2,7 +2,6 @@
 
 import itertools
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -11,13 +10,12 @@ from solvers.features.edges import Features
 from solvers.features.sharp_edges import sharp_edges
 from solvers.fields.aligned import IntegratedField, aligned_field
 from solvers.fields.integrable import anisotropic_field
-from solvers.fields.isotropic import IsotropicSolver
+from solvers.fields.prepared import prepare
 from solvers.layouts.layout import QuadLayout, quad_layout
+from solvers.layouts.turning import joining
 from solvers.primitives import BUILTIN
 from solvers.progress import run
-from solvers.singularities.budget import Singularity, default_corners
-from solvers.surface.points import SurfacePoint
-from solvers.surface.refinement import refine_at
+from solvers.singularities.budget import Singularity
 from solvers.surface.trisurface import TriSurface
 from tests.solvers.suite import separated
 
@@ -32,21 +30,9 @@ def integrated(
     features: Features | None = None,
 ) -> IntegratedField:
     """The aligned field on a refined surface, made integrable if it is not."""
-    edges = None if features is None else features.edges
-    points: list[SurfacePoint] = [s.point for s in singularities]
-    refinement = refine_at(surface, points, 3, edges)
-    fine = refinement.surface
-    solver = IsotropicSolver(
-        fine,
-        default_corners(surface),
-        flips=False,
-        features=None if features is None else features.refined(refinement),
-    )
-    placed = [
-        replace(s, point=fine.point_at_vertex(int(v)))
-        for s, v in zip(singularities, refinement.vertices, strict=True)
-    ]
-    aligned = aligned_field(solver, placed)
+    prepared = prepare(surface, singularities, features=features)
+    turned = joining(prepared.operators.own, prepared.singularities)
+    aligned = aligned_field(prepared, like=turned.solve(prepared.singularities))
     start = IntegratedField(aligned, aligned.start)
     return start if start.field.energy < 1e-3 else run(anisotropic_field(aligned))
 

@@ -6,6 +6,7 @@ import pytest
 from solvers.errors import CrossviewError
 from solvers.fields.aligned import IntegratedField, aligned_field
 from solvers.fields.isotropic import IsotropicSolver
+from solvers.fields.prepared import prepare
 from solvers.layouts.arrangement import arrange
 from solvers.layouts.connections import beside, ending
 from solvers.layouts.crossings import crossings
@@ -19,7 +20,7 @@ from solvers.layouts.turning import joining_turn
 from solvers.maps.seamless import seamless_map
 from solvers.primitives import BUILTIN
 from solvers.progress import run
-from solvers.singularities.budget import Singularity, default_corners
+from solvers.singularities.budget import Singularity
 from solvers.surface.trisurface import TriSurface
 from tests.solvers.layouts.fields import FIELDS, at_places, cube_corners, integrated, layout_of
 from tests.solvers.suite import random_configuration
@@ -150,8 +151,7 @@ def test_a_trace_that_ends_beside_a_node_is_led_onto_it() -> None:
 
 def test_a_field_that_is_not_integrable_has_no_layout() -> None:
     surface = BUILTIN["annulus"](n=48)
-    solver = IsotropicSolver(surface, default_corners(surface), flips=False)
-    aligned = aligned_field(solver, random_configuration(surface, 1))
+    aligned = aligned_field(prepare(surface, random_configuration(surface, 1), refine=0))
     with pytest.raises(LayoutError, match=r"not integrable.*anisotropic"):
         run(quad_layout(IntegratedField(aligned, aligned.start)))
 
@@ -169,7 +169,7 @@ def test_separatrices_of_a_disk_join_its_singularities_along_the_diagonals() -> 
 @pytest.mark.parametrize("angle", [0.0, 0.3, -0.7])
 def test_crosses_that_nothing_fixes_turn_to_where_separatrices_join(angle: float) -> None:
     surface = BUILTIN["sphere"](subdivisions=4)
-    solver = IsotropicSolver(surface, flips=False).turned(angle)
+    solver = IsotropicSolver(surface, delaunay=False).turned(angle)
     singularities = [
         Singularity(surface.point_at_vertex(_nearest(surface, p)), 3) for p in cube_corners()
     ]

@@ -6,17 +6,16 @@ import numpy as np
 import pytest
 
 from solvers.fields.aligned import IntegratedField, aligned_field
-from solvers.fields.isotropic import IsotropicSolver
+from solvers.fields.prepared import prepare
 from solvers.layouts.layout import QuadLayout, quad_layout
 from solvers.primitives import cube_sphere, square
 from solvers.progress import run
-from solvers.singularities.budget import Singularity, default_corners
+from solvers.singularities.budget import Singularity
 from solvers.surface.trisurface import TriSurface
 
 
 def layout_of(surface: TriSurface, singularities: Sequence[Singularity] = ()) -> QuadLayout:
-    solver = IsotropicSolver(surface, default_corners(surface), flips=False)
-    aligned = aligned_field(solver, singularities)
+    aligned = aligned_field(prepare(surface, singularities, refine=0))
     return run(quad_layout(IntegratedField(aligned, aligned.start)))
 
 
