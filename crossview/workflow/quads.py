@@ -231,7 +231,7 @@ def _require_possible(solution: Solution) -> None:
     if len(loops):
         misses = "a boundary" if len(loops) == 1 else f"{len(loops)} boundaries"
         raise _misses(misses, solution.field.boundary_misalignment, MAKE_VALID, ANISOTROPIC)
-    if solution.verdict.status == "impossible":
+    if solution.verdict.status in ("impossible", "unknown"):
         reason = solution.verdict.reason.rstrip(".")
         raise LayoutError(f"no quads: {reason}", remedies=solution.verdict.remedies)
     off = np.abs(np.degrees(solution.field.feature_misalignment))

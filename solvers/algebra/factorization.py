@@ -1,12 +1,16 @@
 """Factor once, solve often: the only place that knows which sparse solver does it.
 
 The default is rslab's supernodal LDL^T with approximate minimum degree ordering; where it is not
-installed or misses the residual bound, SciPy's SuperLU in symmetric mode takes over.
+installed, fails in any way or misses the bound on the residual, SciPy's SuperLU in symmetric mode
+takes over. Every solution is certified: refined once if it misses the bound, else solved for by
+SuperLU, else refused.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any, TypeVar
 
 import numpy as np
 from scipy.sparse import csc_array, diags_array
@@ -20,86 +24,189 @@ try:
 except ImportError:  # an optional accelerator: SuperLU answers the same
     rslab = None
 
-RESIDUAL_BOUND = 1e-8
-"""Relative residual above which a factor is not trusted."""
+RESIDUAL_BOUND = 1e-12
+"""Relative residual beyond which no solution is given away; libraries leave some 1e-16."""
 
 SYMMETRIC_MODE = {"diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}
 
+POOR = "look for triangles without area"
+
 Solve = Callable[[FloatArray], FloatArray]
+"""From right-hand sides, (n,) or (n, k), to solutions of the same shape."""
+
+Library = Callable[[csc_array], Solve]
+"""From a matrix to what its factor does."""
+
+T = TypeVar("T")
 
 
 class Factorization:
-    """A factored symmetric positive definite matrix.
+    """A factored symmetric positive definite matrix, whose solutions are certified.
 
     Parameters
     ----------
     matrix : (n, n) sparse array
         Symmetric positive definite, both triangles stored or, if `lower`, only the lower.
-    solve : callable
-        What the factor does to a right-hand side.
+    libraries : sequence of callable
+        What factors it: each when the one before it has failed or missed the bound.
     lower : bool, optional
         Which.
+
+    Raises
+    ------
+    SolveError
+        If no library factors it.
     """
 
-    def __init__(self, matrix: csc_array, solve: Solve, *, lower: bool = False) -> None:
+    def __init__(
+        self, matrix: csc_array, libraries: Sequence[Library], *, lower: bool = False
+    ) -> None:
         self.matrix = matrix
-        self.solve = solve
         self._lower = lower
+        self._diagonal = matrix.diagonal()
+        sizes = abs(matrix)
+        sums = sizes.sum(axis=1)
+        if lower:
+            sums = sums + sizes.sum(axis=0) - np.abs(self._diagonal)
+        self._by_row = 1 / np.maximum(sums, np.finfo(float).tiny)
+        self._libraries = tuple(libraries)
+        self._solve: Solve
+        self._advance("")
+
+    def solve(self, right_hand_side: FloatArray) -> FloatArray:
+        """Return the solutions of one right-hand side or of several at once.
+
+        Parameters
+        ----------
+        right_hand_side : (n,) or (n, k) float array
+            One, or one in each column.
+
+        Returns
+        -------
+        (n,) or (n, k) float array
+            Whose `residual` is at most `RESIDUAL_BOUND`.
+
+        Raises
+        ------
+        SolveError
+            If no library comes to that, or the right-hand side is not finite.
+        """
+        return self.certified(right_hand_side)[0]
+
+    def certified(self, right_hand_side: FloatArray) -> tuple[FloatArray, float]:
+        """Return what `solve` does, and its residual."""
+        right = np.asarray(right_hand_side, dtype=np.float64)
+        if right.size == 0:
+            return right, 0.0  # of no columns libraries make errors
+        if not np.isfinite(right).all():
+            raise SolveError("the right-hand side is not finite", self._where, POOR)
+        while True:
+            try:
+                solution, residual = _guarded(partial(self._refined, right))
+                failure = f"a residual of {residual:.1e}"
+            except _LibraryError as error:
+                residual, failure = np.inf, str(error)
+            # not so if it is NaN
+            if residual <= RESIDUAL_BOUND:
+                return solution, residual
+            self._advance(failure)
 
     def residual(self, solution: FloatArray, right_hand_side: FloatArray) -> float:
-        """Return the largest residual relative to the largest term in the sums."""
-        scale = max(
-            float(np.abs(right_hand_side).max(initial=0.0)),
-            float(np.abs(self.matrix.data).max(initial=0.0) * np.abs(solution).max(initial=0.0)),
-            np.finfo(float).tiny,
-        )
+        """Return the largest residual of a row of A x = b, relative to ``sum_j |A_ij| max |x|``.
+
+        A factor that errs by rounding alone leaves some 1e-16, whatever the matrix's condition.
+
+        Parameters
+        ----------
+        solution, right_hand_side : (n,) or (n, k) float array
+            x and b.
+        """
+        return self._relative(self._off(solution, right_hand_side), solution)
+
+    @property
+    def _where(self) -> str:
+        return f"{self.matrix.shape[0]} unknowns"
+
+    def _refined(self, right: FloatArray) -> tuple[FloatArray, float]:
+        """Return solutions, refined once if they miss the bound, and their residual."""
+        solution = self._solve(right)
+        if solution.shape != right.shape:
+            raise _LibraryError("a solution of the wrong shape")
+        off = self._off(solution, right)
+        residual = self._relative(off, solution)
+        if not residual <= RESIDUAL_BOUND:
+            solution = solution + self._solve(off)
+            residual = self.residual(solution, right)
+        return solution, residual
+
+    def _off(self, solution: FloatArray, right: FloatArray) -> FloatArray:
         product = self.matrix @ solution
         if self._lower:
-            product += self.matrix.T @ solution - self.matrix.diagonal() * solution
-        return float(np.abs(product - right_hand_side).max(initial=0.0) / scale)
+            product += self.matrix.T @ solution - (self._diagonal * solution.T).T
+        return np.asarray(right - product)
+
+    def _relative(self, off: FloatArray, solution: FloatArray) -> float:
+        largest = np.abs(solution).max(axis=0, initial=0.0)
+        share = (np.abs(off).T * self._by_row).max(axis=-1, initial=0.0)
+        return float((share / np.maximum(largest, np.finfo(float).tiny)).max(initial=0.0))
+
+    def _advance(self, failure: str) -> None:
+        """Factor by the next library that can, or refuse."""
+        while self._libraries:
+            library, *rest = self._libraries
+            self._libraries = tuple(rest)
+            try:
+                self._solve = _guarded(partial(library, self.matrix))
+                return
+            except _LibraryError as error:
+                failure = str(error)
+        where = ", ".join(filter(None, [self._where, failure]))
+        raise SolveError("the linear system could not be solved", where, POOR)
+
+
+class _LibraryError(Exception):
+    """A library failed; why is its message."""
+
+
+def _guarded(call: Callable[[], T]) -> T:
+    """Return what a library does; whatever it raises is a `_LibraryError`."""
+    try:
+        return call()
+    except (KeyboardInterrupt, SystemExit):
+        raise
+    except BaseException as error:  # a panic of compiled code is no Exception
+        raise _LibraryError(f"{type(error).__name__}: {error}") from error
 
 
 class Analysis:
-    """The order of elimination of a sparsity pattern, found once for many matrices.
+    """The order of elimination of one sparsity pattern, found with the first of many matrices.
 
     Parameters
     ----------
-    matrix : (n, n) sparse array
-        Symmetric; only its pattern counts.
     accelerated : bool, optional
         Whether to use rslab where it is installed.
     lower : bool, optional
-        Whether this and the matrices to factor store only their lower triangles.
+        Whether the matrices store only their lower triangles.
     """
 
-    def __init__(self, matrix: csc_array, *, accelerated: bool = True, lower: bool = False) -> None:
+    def __init__(self, *, accelerated: bool = True, lower: bool = False) -> None:
         self._lower = lower
-        self._libraries: list[Callable[[csc_array], Solve]] = []
+        self._libraries: list[Library] = []
         if accelerated and rslab is not None:
-            self._libraries.append(_Rslab(matrix, lower))
+            self._libraries.append(_Rslab(lower))
         self._libraries.append(_SuperLU(lower))
 
     def factor(self, matrix: csc_array) -> Factorization:
-        """Return the factorization of a matrix with the analysed pattern.
+        """Return the factorization of a symmetric matrix (n, n) with the pattern of the others.
 
         Raises
         ------
         SolveError
             If the matrix is singular.
         """
-        probe = np.cos(np.arange(matrix.shape[0], dtype=np.float64))
-        for library in self._libraries:
-            try:
-                factorization = Factorization(matrix, library(matrix), lower=self._lower)
-            except RuntimeError:
-                continue
-            if factorization.residual(factorization.solve(probe), probe) <= RESIDUAL_BOUND:
-                return factorization
-        raise SolveError(
-            "the linear system is singular",
-            f"{matrix.shape[0]} unknowns",
-            "look for triangles without area",
-        )
+        factorization = Factorization(matrix, self._libraries, lower=self._lower)
+        factorization.solve(np.cos(np.arange(matrix.shape[0], dtype=np.float64)))
+        return factorization
 
 
 def factorized(matrix: csc_array, *, accelerated: bool = True) -> Factorization:
@@ -107,7 +214,9 @@ def factorized(matrix: csc_array, *, accelerated: bool = True) -> Factorization:
 
     Parameters
     ----------
-    matrix, accelerated
+    matrix : (n, n) sparse array
+        Both triangles stored.
+    accelerated : bool, optional
         As in `Analysis`.
 
     Raises
@@ -115,20 +224,25 @@ def factorized(matrix: csc_array, *, accelerated: bool = True) -> Factorization:
     SolveError
         If the matrix is singular.
     """
-    matrix = csc_array(matrix)
-    return Analysis(matrix, accelerated=accelerated).factor(matrix)
+    return Analysis(accelerated=accelerated).factor(csc_array(matrix))
 
 
 class _Rslab:
-    """Supernodal LDL^T."""
+    """Supernodal LDL^T; a second matrix reuses the first one's analysis."""
 
-    def __init__(self, matrix: csc_array, lower: bool) -> None:
+    def __init__(self, lower: bool) -> None:
         self._lower = lower
-        self._symbolic = rslab.analyze(matrix, path="ldlt", ordering="amd")
+        self._symbolic: Any = None
 
     def __call__(self, matrix: csc_array) -> Solve:
+        if self._symbolic is None:
+            self._symbolic = rslab.analyze(matrix, path="ldlt", ordering="amd")
         # The values of a lower triangle are taken as they are.
-        solve: Solve = self._symbolic.factor(matrix.data if self._lower else matrix).solve
+        factor = self._symbolic.factor(matrix.data if self._lower else matrix)
+
+        def solve(right: FloatArray) -> FloatArray:
+            return np.asarray(factor.solve(right) if right.ndim == 1 else factor.solve_many(right))
+
         return solve
 
 

@@ -83,7 +83,7 @@ class _ScaleStep:
         diagonal = np.arange(9)
         elements[:, diagonal, diagonal] += 1e-9 * (t.areas / t.areas.sum())[:, None]
         self._proximal = integrability.assembly.packed(elements)
-        self._analysis: Analysis | None = None
+        self._analysis = Analysis(lower=True)
         self._factor: Factorization
 
     def prepare(self, x: FloatArray) -> None:
@@ -93,7 +93,6 @@ class _ScaleStep:
         by_scales[:, :, 6:] = 0.0
         self._at = Residual(np.zeros((len(by_all), 2)), lambda: by_scales)
         matrix = i.assembly.lower(i.assembly.normal(by_scales) + self._proximal)
-        self._analysis = self._analysis or Analysis(matrix, lower=True)
         self._factor = self._analysis.factor(matrix)
 
     def __call__(self, x: FloatArray) -> FloatArray:
@@ -115,7 +114,7 @@ class _AngleStep:
         elements[:, diagonal, diagonal] += 1e-9 * (t.areas / t.areas.sum())[:, None]
         matrix = i.assembly.lower(i.assembly.packed(elements))
         # u and v are orthonormal, so the system is the Crouzeix-Raviart one whatever theta is.
-        self._factor = Analysis(matrix, lower=True).factor(matrix)
+        self._factor = Analysis(lower=True).factor(matrix)
 
     def prepare(self, x: FloatArray) -> None:
         """Nothing changes with x."""

@@ -94,8 +94,7 @@ class MinimumNormNewton:
     def __init__(self, integrability: Integrability, *, accelerated: bool = True) -> None:
         self.integrability = integrability
         self._metric = integrability.assembly.packed(step_metric(integrability))
-        pattern = integrability.assembly.lower(self._metric)
-        self._analysis = Analysis(pattern, accelerated=accelerated, lower=True)
+        self._analysis = Analysis(accelerated=accelerated, lower=True)
 
     def solve(self, x: FloatArray, limit: int = 30) -> Generator[Progress, None, Iterate]:
         """Newton steps until E is nothing but rounding.

@@ -184,11 +184,8 @@ class _Filling:
 
     def energy(self, columns: FloatArray) -> FloatArray:
         """Return the (p, p) products of the gradients of the functions with values (k, p)."""
-        fluxes = [
-            self._own @ values - self._coupling.T @ self._factor.solve(self._coupling @ values)
-            for values in columns.T
-        ]
-        return np.asarray(columns.T @ np.array(fluxes).T)
+        filled = self._factor.solve(self._coupling @ columns)
+        return np.asarray(columns.T @ (self._own @ columns - self._coupling.T @ filled))
 
     def everywhere(self, values: FloatArray) -> FloatArray:
         """Return the function with values (k,) on features at all halfedges' midpoints (m, 3)."""

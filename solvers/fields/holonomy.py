@@ -73,8 +73,8 @@ class Holonomy:
             flow = form[h] * t.weights[h]
             np.add.at(values, t.head[h], flow)
             np.subtract.at(values, t.tail[h], flow)
-            values[1:] = factorization.solve(values[1:])
-            values[0] = 0.0
+        nodal[:, 0] = 0.0
+        nodal[:, 1:] = factorization.solve(nodal[:, 1:].T).T
         level = np.zeros((t.n_faces, 3))
         curvature = t.curvatures.copy()
         for vertex, index in corners.items():

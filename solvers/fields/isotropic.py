@@ -144,8 +144,7 @@ class IsotropicSolver:
         self._check_places(faces, weights)
         right = self._right_hand_side(singularities, faces, weights)
         h = np.zeros(self.surface.n_vertices)
-        h[1:] = self.factorization.solve(right[1:])
-        residual = self.factorization.residual(h[1:], right[1:])
+        h[1:], residual = self.factorization.certified(right[1:])
         h -= self._mass @ h / self._mass.sum()
         offsets = self._offsets(h, singularities, faces, weights)
         d = self.discretization

@@ -7,6 +7,7 @@ from typing import Literal
 
 import numpy as np
 
+from solvers.algebra.factorization import RESIDUAL_BOUND
 from solvers.fields.crossfield import CrossField
 from solvers.remedies import ANISOTROPIC, MAKE_VALID, Remedy, in_words
 
@@ -26,15 +27,15 @@ class Verdict:
 
     Parameters
     ----------
-    status : {"valid", "suspect", "impossible"}
-        The judgement.
+    status : {"valid", "suspect", "impossible", "unknown"}
+        The judgement; "unknown" where the field is not solved well enough to be judged.
     reason : str
         Why, in a sentence.
     remedies : tuple of Remedy
         What may be done about it.
     """
 
-    status: Literal["valid", "suspect", "impossible"]
+    status: Literal["valid", "suspect", "impossible", "unknown"]
     reason: str
     remedies: tuple[Remedy, ...] = ()
 
@@ -72,6 +73,12 @@ def judge(
             "impossible",
             "No quadrangulation of a torus has one valence 3, one valence 5 and nothing else "
             "(Izmestiev et al. 2013).",
+        )
+    if not field.residual <= RESIDUAL_BOUND:
+        return Verdict(
+            "unknown",
+            f"Not known: the linear system is solved to a residual of {field.residual:.1g} only; "
+            "look for triangles without area.",
         )
     worst = float(np.degrees(np.abs(field.defects).max(initial=0.0)))
     if worst > np.degrees(tolerance):

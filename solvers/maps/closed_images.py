@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import coo_array, csc_array, diags_array, vstack
 
-from solvers.algebra.factorization import Analysis, Factorization
+from solvers.algebra.factorization import Analysis
 from solvers.fields.integrability import Integrability
 from solvers.surface.triangulation import FloatArray, IntArray
 
@@ -86,13 +86,7 @@ class Conditions:
         self.spread = _to_halfedges(integrability, edges)
         self.closing = _closing(integrability, self.spread)
         self.free = _free(integrability, edges).reshape(-1)
-        self._analysis: Analysis | None = None
-
-    def factor(self, matrix: csc_array) -> Factorization:
-        """Factor a matrix that has the same pattern each time."""
-        if self._analysis is None:
-            self._analysis = Analysis(matrix)
-        return self._analysis.factor(matrix)
+        self.analysis = Analysis()
 
 
 class ClosestImages:
@@ -119,16 +113,17 @@ class ClosestImages:
         schur = closing @ diags_array(self._inverse) @ closing.T
         # On a flat torus the closing of all triangles together is no condition.
         schur = csc_array(schur + 1e-13 * diags_array(schur.diagonal()))
-        self._factor = conditions.factor(schur)
+        self._factor = conditions.analysis.factor(schur)
 
     def _closed(self, images: FloatArray) -> FloatArray:
-        """Return the nearest images of edges that close around every triangle."""
-        closing = self.conditions.closing
+        """Return the nearest images of edges, (2 ne,) or (2 ne, k), that close everywhere."""
+        closing, inverse = self.conditions.closing, self._inverse
         for _ in range(PASSES):
             gap = closing @ images
             if np.abs(gap).max(initial=0.0) <= ROUNDING * np.abs(images).max(initial=0.0):
                 break
-            images = images - self._inverse * (closing.T @ self._factor.solve(gap))
+            forces = closing.T @ self._factor.solve(gap)
+            images = images - (inverse * forces.T).T
         return np.asarray(images)
 
     def _as_map(self, images: FloatArray) -> SeamlessMap:
@@ -140,8 +135,7 @@ class ClosestImages:
     def joining(self, rows: csc_array) -> Joining:
         """Return the rows of halfedges' images (k, 6 m) with the moves that change each."""
         wanted = csc_array(rows @ self.conditions.spread).toarray()
-        moves = [self._closed(self._inverse * row) for row in wanted]
-        return Joining(rows, wanted, np.array(moves).reshape(wanted.shape))
+        return Joining(rows, wanted, self._closed((self._inverse * wanted).T).T)
 
     def joined(self, joining: Joining) -> SeamlessMap:
         """Return the nearest map on which also these combinations of its images vanish."""

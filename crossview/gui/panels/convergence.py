@@ -13,7 +13,7 @@ from crossview.gui.panels.validity import DOT
 from crossview.gui.state import WindowState
 from crossview.workflow.pipeline import Solution
 
-COLORS = {"valid": GOOD, "suspect": UNSURE, "impossible": BAD}
+COLORS = {"valid": GOOD, "suspect": UNSURE, "impossible": BAD, "unknown": UNSURE}
 STOPPED = "Not converged: this is the last iterate before it was stopped."
 NO_ITERATIONS = {
     "isotropic": "Isotropic: solved at once, no iterations",

@@ -1,6 +1,7 @@
 """The anisotropic solver: E to round-off where one scale cannot be aligned."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -335,6 +336,9 @@ def test_verdicts_name_their_reason() -> None:
     assert f"{np.degrees(np.abs(start.isotropic.defects[0])):.3g} degrees" in unaligned.reason
     merely_aligned = IntegratedField(start, start.start).field
     assert "not integrable" in judge(merely_aligned, flips=0).reason
+    for residual in (1e-9, np.nan):
+        unsolved = judge(replace(field, residual=residual), flips=0)
+        assert (unsolved.status, unsolved.reason[:9]) == ("unknown", "Not known")
 
 
 @pytest.mark.parametrize("name", ["annulus", "torus_with_hole"])
