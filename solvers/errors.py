@@ -23,6 +23,12 @@ class CrossviewError(Exception):
         What the user may do that no program can; nothing is decided by it.
     remedies : iterable of Remedy, optional
         What a program can do about it, the least change first.
+
+    Examples
+    --------
+    >>> from solvers import CrossviewError
+    >>> str(CrossviewError("the edge length must be above 0", "-2", "give another"))
+    'the edge length must be above 0 (-2): give another'
     """
 
     def __init__(
@@ -55,11 +61,23 @@ class CrossviewError(Exception):
         return " ".join(line.split())
 
     def to_do(self, told: Callable[[Remedy], str] = lambda remedy: remedy.words) -> str:
-        """Return the advice and the remedies in words; empty where there are none."""
+        """Return the advice and the remedies in words; empty where there are none.
+
+        Parameters
+        ----------
+        told : callable, optional
+            As of `line`.
+        """
         return ", or ".join(part for part in (self.advice, in_words(self.remedies, told)) if part)
 
     def locate(self, place: str) -> None:
-        """Name the larger place, such as the file, before where it is wrong."""
+        """Name the larger place, such as the file, before where it is wrong.
+
+        Parameters
+        ----------
+        place : str
+            Its name.
+        """
         self.where = f"{place}, {self.where}" if self.where else place
 
 
@@ -68,12 +86,23 @@ class SurfaceError(CrossviewError):
 
     Parameters
     ----------
-    what, where, advice, remedies
+    what, where, advice : str
         As in `CrossviewError`.
     elements : array_like of int, optional
         Numbers of the offending faces, vertices or edges.
     kind : {"", "faces", "vertices", "edges"}, optional
         What `elements` counts. Edges are given as pairs of vertices, shape (k, 2).
+    remedies : iterable of Remedy, optional
+        As in `CrossviewError`.
+
+    Examples
+    --------
+    >>> from solvers import SurfaceError, TriSurface
+    >>> try:
+    ...     TriSurface([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], [[0, 1, 2], [1, 2, 3]])
+    ... except SurfaceError as error:
+    ...     print(error.kind, error.elements.tolist())
+    edges [[1, 2]]
     """
 
     def __init__(
@@ -92,8 +121,41 @@ class SurfaceError(CrossviewError):
 
 
 class SingularityError(CrossviewError):
-    """A singularity configuration that has no field, or that is placed where none can be."""
+    """A singularity configuration that has no field, or that is placed where none can be.
+
+    Parameters
+    ----------
+    what, where, advice : str
+        As in `CrossviewError`.
+    remedies : iterable of Remedy, optional
+        As in `CrossviewError`.
+
+    Examples
+    --------
+    >>> from solvers import SingularityError
+    >>> from solvers.primitives import sphere
+    >>> from solvers.singularities import require_budget
+    >>> try:
+    ...     require_budget(sphere(subdivisions=1), [], {})
+    ... except SingularityError as error:
+    ...     print(error.remedies[0].words)
+    add 8 valence 3
+    """
 
 
 class SolveError(CrossviewError):
-    """A linear system or an iteration that could not be solved."""
+    """A linear system or an iteration that could not be solved.
+
+    Parameters
+    ----------
+    what, where, advice : str
+        As in `CrossviewError`.
+    remedies : iterable of Remedy, optional
+        As in `CrossviewError`.
+
+    Examples
+    --------
+    >>> from solvers import SolveError
+    >>> str(SolveError("the linear system is singular", "9 unknowns"))
+    'the linear system is singular (9 unknowns)'
+    """

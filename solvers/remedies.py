@@ -18,6 +18,12 @@ class Remedy:
     ----------
     words : str
         What to do, as an imperative within a sentence.
+
+    Examples
+    --------
+    >>> from solvers import Remedy
+    >>> Remedy("unlock it").label
+    'Unlock it'
     """
 
     words: str
@@ -30,7 +36,22 @@ class Remedy:
 
 @dataclass(frozen=True)
 class RepairSurface(Remedy):
-    """Also mend what cannot be mended without changing the surface."""
+    """Also mend what cannot be mended without changing the surface.
+
+    Parameters
+    ----------
+    words : str
+        As in `Remedy`.
+
+    Examples
+    --------
+    >>> from solvers import RepairSurface, SurfaceError, TriSurface
+    >>> try:
+    ...     TriSurface([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 1, 2]])
+    ... except SurfaceError as error:
+    ...     print([isinstance(remedy, RepairSurface) for remedy in error.remedies])
+    [True]
+    """
 
     @property
     def label(self) -> str:
@@ -40,7 +61,23 @@ class RepairSurface(Remedy):
 
 @dataclass(frozen=True)
 class TakeLargest(Remedy):
-    """Take the largest component of a surface in several."""
+    """Take the largest component of a surface in several.
+
+    Parameters
+    ----------
+    words : str
+        As in `Remedy`.
+
+    Examples
+    --------
+    >>> from solvers import SurfaceError, TakeLargest, TriSurface
+    >>> corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [5, 0, 0], [6, 0, 0], [5, 1, 0]]
+    >>> try:
+    ...     TriSurface(corners, [[0, 1, 2], [3, 4, 5]])
+    ... except SurfaceError as error:
+    ...     print([isinstance(remedy, TakeLargest) for remedy in error.remedies])
+    [True]
+    """
 
     @property
     def label(self) -> str:
@@ -50,7 +87,19 @@ class TakeLargest(Remedy):
 
 @dataclass(frozen=True)
 class MakeValid(Remedy):
-    """Move the unlocked singularities until the holonomy defects vanish."""
+    """Move the unlocked singularities until the holonomy defects vanish.
+
+    Parameters
+    ----------
+    words : str, optional
+        As in `Remedy`.
+
+    Examples
+    --------
+    >>> from solvers import MakeValid
+    >>> MakeValid().words
+    'make the configuration valid'
+    """
 
     words: str = "make the configuration valid"
 
@@ -70,6 +119,12 @@ class UseMethod(Remedy):
         As in `Remedy`.
     method : str
         Its name.
+
+    Examples
+    --------
+    >>> from solvers import UseMethod
+    >>> UseMethod("solve the anisotropic field", "anisotropic").label
+    'Solve anisotropic'
     """
 
     method: str
@@ -81,7 +136,10 @@ class UseMethod(Remedy):
 
 
 MAKE_VALID = MakeValid()
+"""In its usual words."""
+
 ANISOTROPIC = UseMethod("solve the anisotropic field", "anisotropic")
+"""The method that bridges holonomy defects, in the usual words."""
 
 
 def in_words(

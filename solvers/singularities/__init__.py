@@ -11,10 +11,14 @@ from solvers.singularities.budget import (
 )
 from solvers.singularities.pairs import merged, pair_at, split
 from solvers.singularities.placing import far_points
+from solvers.singularities.remedies import AddMissing, ChangeOne, RemoveOne
 from solvers.singularities.symmetry import mirrored, turned
 
 __all__ = [
+    "AddMissing",
+    "ChangeOne",
     "IndexBudget",
+    "RemoveOne",
     "Singularity",
     "default_corners",
     "far_points",

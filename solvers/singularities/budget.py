@@ -106,8 +106,8 @@ class IndexBudget:
     >>> from solvers.primitives import sphere
     >>> from solvers.singularities import index_budget
     >>> budget = index_budget(sphere(subdivisions=1), [], {})
-    >>> budget.satisfied, budget.missing, budget.remedies
-    (False, 8, ('add 8 valence 3',))
+    >>> budget.satisfied, budget.missing, [remedy.words for remedy in budget.remedies]
+    (False, 8, ['add 8 valence 3'])
     """
 
     index_sum: int

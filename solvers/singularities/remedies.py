@@ -19,6 +19,14 @@ class AddMissing(Remedy):
         Of each.
     count : int
         How many.
+
+    Examples
+    --------
+    >>> from solvers.primitives import sphere
+    >>> from solvers.singularities import AddMissing, index_budget
+    >>> (remedy,) = index_budget(sphere(subdivisions=1), [], {}).remedies
+    >>> remedy == AddMissing.of(valence=3, count=8)
+    True
     """
 
     valence: int
@@ -26,7 +34,13 @@ class AddMissing(Remedy):
 
     @classmethod
     def of(cls, valence: int, count: int) -> AddMissing:
-        """Return the remedy, in its usual words."""
+        """Return the remedy, in its usual words.
+
+        Parameters
+        ----------
+        valence, count : int
+            As of the class.
+        """
         return cls(f"add {'one' if count == 1 else count} valence {valence}", valence, count)
 
     @property
@@ -47,6 +61,16 @@ class ChangeOne(Remedy):
         Which singularity, from 0.
     valence : int
         Its new valence.
+
+    Examples
+    --------
+    >>> from solvers.primitives import torus
+    >>> from solvers.singularities import ChangeOne, Singularity, index_budget
+    >>> surface = torus(n=12)
+    >>> places = [surface.point_at_vertex(vertex) for vertex in (0, 40)]
+    >>> pair = [Singularity(places[0], 3), Singularity(places[1], 6)]
+    >>> index_budget(surface, pair, {}).remedies[-1] == ChangeOne("make #2 a valence 5", 1, 5)
+    True
     """
 
     number: int
@@ -63,6 +87,15 @@ class RemoveOne(Remedy):
         As in `Remedy`.
     number : int
         Which singularity, from 0.
+
+    Examples
+    --------
+    >>> from solvers.primitives import torus
+    >>> from solvers.singularities import RemoveOne, Singularity, index_budget
+    >>> surface = torus(n=12)
+    >>> alone = [Singularity(surface.point_at_vertex(0), 5)]
+    >>> index_budget(surface, alone, {}).remedies[-1] == RemoveOne("remove #1", 0)
+    True
     """
 
     number: int

@@ -56,7 +56,8 @@ def members(thing: object) -> dict[str, object]:
     """The public methods and properties that a class defines itself."""
     kinds = (FunctionType, classmethod, staticmethod, property, cached_property)
     found = vars(thing) if inspect.isclass(thing) else {}
-    return {k: v for k, v in found.items() if isinstance(v, kinds) and not k.startswith("_")}
+    public = [k for k, v in found.items() if isinstance(v, kinds) and not k.startswith("_")]
+    return {k: getattr(thing, k) for k in public}
 
 
 def faults(thing: object, codes: set[str]) -> list[str]:
