@@ -1,5 +1,6 @@
 # make run    the window on a gallery case; without a display, a picture of it
 # make test   lint, types, import contracts and all tests
+# make docs   the documentation, into build/docs
 # make bench  the performance figures
 # make table  the table of docs/anisotropic.md (minutes); CROSSVIEW_DATA names a folder of surfaces
 # make study  100 random configurations made valid, the anticube from random starts: the tables of
@@ -14,7 +15,7 @@ PICTURE := crossview.png
 XVFB := $(if $(filter Darwin,$(shell uname)),,xvfb-run -a -s "-screen 0 1600x1200x24")
 PIP_INSTALL := $(VENV)/bin/python -m pip install --disable-pip-version-check
 
-.PHONY: run test bench table study bench-peers clean
+.PHONY: run test docs bench table study bench-peers clean
 
 run:
 	@sh tools/system-packages.sh window "$(PYTHON)"
@@ -29,6 +30,11 @@ test:
 	$(VENV)/bin/mypy
 	$(VENV)/bin/lint-imports
 	$(XVFB) $(VENV)/bin/python -m pytest
+
+docs:
+	@sh tools/system-packages.sh window "$(PYTHON)"
+	@$(MAKE) --no-print-directory $(VENV)/installed-docs
+	$(VENV)/bin/python -m sphinx --fail-on-warning --keep-going docs build/docs
 
 bench:
 	@sh tools/system-packages.sh test "$(PYTHON)"
@@ -60,5 +66,5 @@ $(VENV)/installed-%: pyproject.toml | $(VENV)/bin/python
 	@touch $@ $(VENV)/installed
 
 clean:
-	rm -rf $(VENV) build dist *.egg-info .benchmarks .import_linter_cache .mypy_cache .pytest_cache .ruff_cache $(PICTURE)
+	rm -rf $(VENV) build dist docs/written *.egg-info .benchmarks .import_linter_cache .mypy_cache .pytest_cache .ruff_cache $(PICTURE)
 	find crossview solvers resources tests -name __pycache__ -prune -exec rm -rf {} +
