@@ -155,7 +155,13 @@ class SolveError(CrossviewError):
 
     Examples
     --------
+    >>> import numpy as np
+    >>> from scipy.sparse import csc_array
     >>> from solvers import SolveError
-    >>> str(SolveError("the linear system is singular", "9 unknowns"))
-    'the linear system is singular (9 unknowns)'
+    >>> from solvers.algebra import factorized
+    >>> try:
+    ...     factorized(csc_array(np.ones((2, 2))))
+    ... except SolveError as error:
+    ...     print(error.what)
+    the linear system could not be solved
     """

@@ -2,6 +2,15 @@
 
 from __future__ import annotations
 
+from solvers.algebra.factorization import Analysis, Factorization, factorized
 from solvers.algebra.operators import crouzeix_raviart, laplacian, lumped_mass, stiffness
 
-__all__ = ["crouzeix_raviart", "laplacian", "lumped_mass", "stiffness"]
+__all__ = [
+    "Analysis",
+    "Factorization",
+    "crouzeix_raviart",
+    "factorized",
+    "laplacian",
+    "lumped_mass",
+    "stiffness",
+]

@@ -2,6 +2,17 @@
 
 from __future__ import annotations
 
+from solvers.validity.completion import missing_singularities
 from solvers.validity.guide import Guide, LevelLines
+from solvers.validity.make_valid import PlaceAnew, ValidityError, make_valid
+from solvers.validity.search import Moved
 
-__all__ = ["Guide", "LevelLines"]
+__all__ = [
+    "Guide",
+    "LevelLines",
+    "Moved",
+    "PlaceAnew",
+    "ValidityError",
+    "make_valid",
+    "missing_singularities",
+]

@@ -22,13 +22,16 @@ from solvers.singularities.budget import Singularity, index_budget
 from solvers.surface.triangulation import BoolArray, FloatArray
 
 SWEEPS = 2
-"""How often each is taken away and placed again, knowing all the others."""
+"""How often each is taken away and placed again, knowing all the others. Chosen."""
 
 MOST = 64
-"""How many are placed at most."""
+"""How many are placed at most. Chosen: with more, a few of higher valence are meant."""
 
 CLEAR = 0.03
-"""How far from singularities and boundary places are looked for, in square roots of the area."""
+"""How far from singularities and boundary places are looked for, in square roots of the area.
+
+Chosen, farther than `spacing.CLOSEST`.
+"""
 
 
 def missing_singularities(
@@ -48,12 +51,30 @@ def missing_singularities(
     Returns
     -------
     tuple of Singularity
-        What to add, at vertices; all of valence 3 or all of valence 5.
+        What to add, at vertices; all of valence 3 or all of valence 5. The result of the
+        computation, for `solvers.run`.
 
     Raises
     ------
     SingularityError
         More are missing than can be placed.
+
+    Examples
+    --------
+    On a disk the four valences 3 are best at the corners of a square:
+
+    >>> import numpy as np
+    >>> from solvers import run
+    >>> from solvers.fields import IsotropicSolver
+    >>> from solvers.primitives import disk
+    >>> from solvers.validity import missing_singularities
+    >>> surface = disk(edge_length=0.1)
+    >>> found = run(missing_singularities(IsotropicSolver(surface), []))
+    >>> [s.valence for s in found]
+    [3, 3, 3, 3]
+    >>> radii = np.linalg.norm(surface.positions([s.point for s in found]), axis=1)
+    >>> bool(np.allclose(radii, radii[0]))
+    True
     """
     surface = solver.surface
     missing = index_budget(surface, singularities, solver.corners).missing

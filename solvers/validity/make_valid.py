@@ -29,13 +29,13 @@ from solvers.validity.search import TOLERANCE, Blocked, Moved, Obstacle, Search
 __all__ = ["TOLERANCE", "Moved", "PlaceAnew", "ValidityError", "make_valid"]
 
 NEAREST = 16
-"""How many layouts are tried before something else is proposed."""
+"""How many layouts are tried before something else is proposed. Chosen."""
 
 FARTHER = 8
-"""How many layouts that are farther off are tried for a remedy."""
+"""How many layouts that are farther off are tried for a remedy. Chosen."""
 
 SITES, AIMS = 3, 3
-"""How many places, and how many layouts at each, are tried for one more pair."""
+"""How many places, and how many layouts at each, are tried for one more pair. Chosen."""
 
 
 @dataclass(frozen=True)
@@ -50,6 +50,22 @@ class PlaceAnew(Remedy):
         Those of another layout, or with one more pair.
     step : str
         What a history calls it.
+
+    Examples
+    --------
+    >>> from solvers import run
+    >>> from solvers.primitives import torus
+    >>> from solvers.singularities import Singularity
+    >>> from solvers.validity import PlaceAnew, ValidityError, make_valid
+    >>> surface = torus(n=24)
+    >>> places = [surface.closest_point([x, 0.0, 0.0]) for x in (1.4, -0.6)]
+    >>> pair = [Singularity(place, valence) for place, valence in zip(places, (3, 5))]
+    >>> try:
+    ...     run(make_valid(surface, pair))
+    ... except ValidityError as error:
+    ...     (remedy,) = error.remedies
+    >>> isinstance(remedy, PlaceAnew), [s.valence for s in remedy.singularities]
+    (True, [3, 5, 3, 5])
     """
 
     singularities: tuple[Singularity, ...]
@@ -67,6 +83,23 @@ class ValidityError(SingularityError):
         The holonomy condition in the way.
     remedies : iterable of Remedy
         What helps, the least change first.
+
+    Examples
+    --------
+    No torus with one valence 3 and one valence 5 is valid (Izmestiev et al. 2013):
+
+    >>> from solvers import run
+    >>> from solvers.primitives import torus
+    >>> from solvers.singularities import Singularity
+    >>> from solvers.validity import ValidityError, make_valid
+    >>> surface = torus(n=24)
+    >>> places = [surface.closest_point([x, 0.0, 0.0]) for x in (1.4, -0.6)]
+    >>> pair = [Singularity(place, valence) for place, valence in zip(places, (3, 5))]
+    >>> try:
+    ...     run(make_valid(surface, pair))
+    ... except ValidityError as error:
+    ...     print(error.what)
+    a torus with one valence 3 and one valence 5 is never valid, wherever they are
     """
 
     def __init__(
@@ -98,7 +131,8 @@ def make_valid(
     Returns
     -------
     Moved
-        The valid configuration, verified by a fresh operator.
+        The valid configuration, verified by a fresh operator; the result of the computation, for
+        `solvers.run`.
 
     Raises
     ------
@@ -107,6 +141,30 @@ def make_valid(
     ValidityError
         If there is no valid configuration near enough; it says which condition is in the way and
         why, and what helps.
+
+    Notes
+    -----
+    The paper names the conditions (section "Valid singularity configurations"); the way to where
+    they hold is Newton's, along the gradients of `Holonomy`.
+
+    Examples
+    --------
+    On an annulus a valence 3 and a valence 5 must lie on one ray:
+
+    >>> import numpy as np
+    >>> from solvers import run
+    >>> from solvers.primitives import annulus
+    >>> from solvers.singularities import Singularity
+    >>> from solvers.validity import make_valid
+    >>> surface = annulus(n=24)
+    >>> three = Singularity(surface.closest_point([0.8, 0.0, 0.0]), 3, locked=True)
+    >>> five = Singularity(surface.closest_point([0.3, 0.5, 0.0]), 5)
+    >>> end = run(make_valid(surface, [three, five]))
+    >>> bool(np.degrees(np.abs(end.defects).max()) < 1e-6)
+    True
+    >>> x, y, _ = surface.position(end.singularities[1].point)
+    >>> bool(x > 0 and abs(y) < 0.01)  # as far as the mesh is symmetrical
+    True
     """
     solver = IsotropicSolver(surface, corners)
     require_budget(surface, singularities, solver.corners)

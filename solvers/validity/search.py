@@ -21,20 +21,25 @@ from solvers.surface.triangulation import FloatArray, wrap
 from solvers.surface.trisurface import TriSurface
 
 TOLERANCE = np.radians(1e-6)
+"""Defect that counts as none, radians. Chosen, above rounding and below what a mesh can tell."""
+
 LONGEST_STEP = 0.1
-"""Longest move of a singularity in one step, in square roots of the surface's area."""
+"""Longest move of a singularity in one step, in square roots of the surface's area. Chosen."""
 
 HALVINGS, CONTACTS = 7, 4
-"""How often a step is halved; how often it is bent around what it would come too near to."""
+"""How often a step is halved, and how often bent around what it would come too near to. Chosen."""
 
 NEAR = np.radians(1e-3)
-"""Defects below which the refined surface's own operator takes over."""
+"""Defect, radians, below which the refined surface's own operator takes over. Chosen."""
 
 NUDGE = 0.1
-"""How far singularities are nudged, in shortest edges of their triangles."""
+"""How far singularities are nudged, in shortest edges of their triangles. Chosen."""
 
 LEAST_HOLD = 1e-6
-"""Change of a defect, radians, by a move of the square root of the area: less is no hold on it."""
+"""Change of a defect, radians, by a move of the square root of the area: less is no hold on it.
+
+Chosen.
+"""
 
 
 class Obstacle(Enum):
@@ -52,7 +57,7 @@ class Moved(Progress):
 
     Parameters
     ----------
-    stage, fraction
+    stage, fraction : str, float
         As in `Progress`.
     singularities : tuple of Singularity
         Where they are.
@@ -62,6 +67,22 @@ class Moved(Progress):
         The quarter turns that each condition is taken to: 0 the nearest, else another layout.
     layout : str
         The same in words at the end of the way; empty: the nearest.
+
+    Examples
+    --------
+    Each step can be shown; the last is the result:
+
+    >>> from solvers import run
+    >>> from solvers.primitives import annulus
+    >>> from solvers.singularities import Singularity
+    >>> from solvers.validity import make_valid
+    >>> surface = annulus(n=24)
+    >>> places = [surface.closest_point(place) for place in ([0.8, 0, 0], [0.3, 0.5, 0])]
+    >>> pair = [Singularity(place, valence) for place, valence in zip(places, (3, 5))]
+    >>> worst = []
+    >>> end = run(make_valid(surface, pair), lambda step: worst.append(abs(step.defects[0])))
+    >>> end.stage, end.turns, bool(worst[0] > 1e-3 > 1e-6 > worst[-1])
+    ('valid', (0,), True)
     """
 
     singularities: tuple[Singularity, ...]
