@@ -1,9 +1,9 @@
 """Factor once, solve often: the only place that knows which sparse solver does it.
 
-The default is rslab's supernodal LDL^T with approximate minimum degree ordering; where it is not
-installed, fails in any way or misses the bound on the residual, SciPy's SuperLU in symmetric mode
-takes over. Every solution is certified: refined once if it misses the bound, else solved for by
-SuperLU, else refused.
+The default is rslab's supernodal LDL^T with approximate minimum degree ordering; where it fails in
+any way or misses the bound on the residual, SciPy's SuperLU in symmetric mode takes over. Every
+solution is certified: refined once if it misses the bound, else solved for by SuperLU, else
+refused.
 """
 
 from __future__ import annotations
@@ -13,16 +13,12 @@ from functools import partial
 from typing import Any, TypeVar
 
 import numpy as np
+import rslab
 from scipy.sparse import csc_array, diags_array
 from scipy.sparse.linalg import splu
 
 from solvers.errors import SolveError
 from solvers.surface.triangulation import FloatArray, IntArray
-
-try:
-    import rslab
-except ImportError:  # an optional accelerator: SuperLU answers the same
-    rslab = None
 
 RESIDUAL_BOUND = 1e-12
 """Residual, relative, beyond which no solution is given away.
@@ -207,7 +203,7 @@ class Analysis:
     Parameters
     ----------
     accelerated : bool, optional
-        Whether to use rslab where it is installed.
+        Whether rslab is tried before SuperLU.
     lower : bool, optional
         Whether the matrices store only their lower triangles.
 
@@ -227,7 +223,7 @@ class Analysis:
     def __init__(self, *, accelerated: bool = True, lower: bool = False) -> None:
         self._lower = lower
         self._libraries: list[Library] = []
-        if accelerated and rslab is not None:
+        if accelerated:
             self._libraries.append(_Rslab(lower))
         self._libraries.append(_SuperLU(lower))
 
