@@ -102,7 +102,7 @@ def ours(problem: Problem) -> Made:
     fresh = replace(problem, surface=surface)
     start = time.perf_counter()
     solution = run(Pipeline().solve(fresh))
-    _, mesh = run(quads_of(solution, MeshOptions(target_quads=QUADS)))
+    _, _, mesh = run(quads_of(solution, MeshOptions(target_quads=QUADS)))
     seconds = time.perf_counter() - start
     return Made(mesh.vertices, mesh.quads, np.empty((0, 3), dtype=int), seconds)
 

@@ -15,10 +15,12 @@ from crossview.cases.model import Case
 from crossview.cli.options import Flag, Output, chosen_case, mesh_options
 from crossview.cli.terminal import say, watch
 from crossview.io.staged_files import staged
+from crossview.workflow.layout import layout, layout_soon
 from crossview.workflow.pipeline import Solution, solve_case
-from crossview.workflow.quads import MeshOptions, layout, quads_of
+from crossview.workflow.quads import MeshOptions, quads_of
 from solvers.errors import CrossviewError
 from solvers.layouts.errors import LayoutError
+from solvers.layouts.layout import QuadLayout
 from solvers.progress import Progress
 from solvers.quads.quadmesh import QuadMesh
 
@@ -84,7 +86,7 @@ def render(
     quiet
         Show neither progress nor summary.
     """
-    from crossview.export.figures import check
+    from crossview.export.figures import check, shows_curves
     from crossview.export.figures import render as draw
 
     whole = chosen_case(case, method, repair=repair, features=features)
@@ -100,11 +102,13 @@ def render(
 
     def work(path: Path) -> Generator[Progress, None, Solution]:
         solution = yield from _component_of(whole, found)
-        quads = None
+        made, quads = None, None
         if wanted is not None:
-            solution, quads = yield from quads_of(solution, wanted)
+            solution, made, quads = yield from quads_of(solution, wanted)
         elif "layout" in (shown or ()):
-            yield from layout(solution)
+            made = yield from layout(solution)
+        elif shows_curves(shown):
+            made = yield from layout_soon(solution)
         yield Progress("drawing", 0.9)
         draw(
             solution,
@@ -114,6 +118,7 @@ def render(
             scale=scale,
             transparent=transparent,
             camera=camera,
+            layout=made,
             quads=quads,
         )
         return solution
@@ -173,25 +178,25 @@ def gallery(
 
     def work(
         name: str, directory: Path
-    ) -> Generator[Progress, None, tuple[Solution, QuadMesh | None]]:
+    ) -> Generator[Progress, None, tuple[Solution, QuadLayout | None, QuadMesh | None]]:
         (solution,) = yield from solve_case(chosen_case(str(paths[name])))
-        quads = None
+        made, quads = None, None
         with contextlib.suppress(LayoutError):  # the summary tells that the field is not valid
-            solution, quads = yield from quads_of(solution, COARSE)
+            solution, made, quads = yield from quads_of(solution, COARSE)
         yield Progress(f"drawing {name}", 0.9)
-        write_files(solution, directory, quads)
-        draw(solution, directory / FIGURE)
+        write_files(solution, directory, made, quads)
+        draw(solution, directory / FIGURE, layout=made)
         if quads is not None:
             draw(solution, directory / QUADS, layers=QUAD_LAYERS, quads=quads)
-        return solution, quads
+        return solution, made, quads
 
     for name in paths:
         with staged(Path(output) / name) as staging:
-            solution, quads = watch(work(name, staging), quiet)
+            solution, made, quads = watch(work(name, staging), quiet)
         if not quiet:
             say(f"{name}: {summary(solution)}")
-            if quads is not None:
-                say(f"{name}: {quads_summary(solution, quads)}")
+            if made is not None and quads is not None:
+                say(f"{name}: {quads_summary(made, quads)}")
 
 
 def _size(text: str) -> tuple[int, int]:

@@ -9,13 +9,15 @@ from crossview.cases.model import Case
 from crossview.cli.options import Flag, Json, Output, chosen_case, mesh_options
 from crossview.cli.terminal import say, say_json, watch
 from crossview.io.staged_files import staged
+from crossview.workflow.layout import layout_soon
 from crossview.workflow.pipeline import Solution, of_component, solve_case
 from crossview.workflow.quads import MeshOptions, quads_of
 from solvers.errors import CrossviewError
+from solvers.layouts.layout import QuadLayout
 from solvers.progress import Progress
 from solvers.quads.quadmesh import QuadMesh
 
-Results = list[tuple[Solution, QuadMesh | None]]
+Results = list[tuple[Solution, QuadLayout | None, QuadMesh | None]]
 
 
 def solve(
@@ -77,13 +79,13 @@ def solve(
     with staged(output) as staging:
         results = watch(_solved_into(staging, found, wanted, kinds), quiet)
     if as_json:
-        reports = [report(solution, made) for solution, made in results]
+        reports = [report(*made) for made in results]
         say_json(reports if found.options.component == "all" else reports[0])
     elif not quiet:
-        for solution, made in results:
+        for solution, layout, made in results:
             say(summary(solution))
-            if made is not None:
-                say(quads_summary(solution, made))
+            if layout is not None and made is not None:
+                say(quads_summary(layout, made))
         say(f"wrote {Path(output)}")
 
 
@@ -111,14 +113,14 @@ def _solved_into(
     solutions = yield from solve_case(case)
     for number, solution in enumerate(solutions):
         if wanted is None:
-            results.append((solution, None))
+            results.append((solution, (yield from layout_soon(solution)), None))
         else:
             with of_component(number if len(solutions) > 1 else None):
                 results.append((yield from quads_of(solution, wanted)))
     yield Progress("writing", 0.9)
-    for number, (solution, made) in enumerate(results):
+    for number, (solution, layout, made) in enumerate(results):
         one_of_many = case.options.component == "all"
         folder = directory / f"component-{number}" if one_of_many else directory
         folder.mkdir(exist_ok=True)
-        write_files(solution, folder, made, formats)
+        write_files(solution, folder, layout, made, formats)
     return results

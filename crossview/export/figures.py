@@ -23,9 +23,10 @@ from crossview.scene.camera import read_camera
 from crossview.view.field import feature_lines
 from crossview.view.meshes import curves_of, patches_of, quads_of, t_junctions_of
 from crossview.view.scene_view import Background
+from crossview.workflow.layout import misaligned_boundaries, separatrices
 from crossview.workflow.pipeline import Solution
-from crossview.workflow.quads import misaligned_boundaries, separatrices, turned_field
 from solvers.errors import CrossviewError
+from solvers.layouts.layout import QuadLayout
 from solvers.quads.quadmesh import QuadMesh
 
 KINDS = (".png", ".svg", ".pdf")
@@ -41,6 +42,7 @@ def render(
     transparent: bool = False,
     camera: str = "auto",
     background: Background = "white",
+    layout: QuadLayout | None = None,
     quads: QuadMesh | None = None,
 ) -> Path:
     """Draw a solution to a file.
@@ -63,8 +65,10 @@ def render(
     camera : str
         auto, iso, xy, xz, yz, or px,py,pz,fx,fy,fz,ux,uy,uz: position, focus, up.
     background : {"white", "dark"}
+    layout : QuadLayout, optional
+        For the layer layout, and for separatrices that are exact.
     quads : QuadMesh, optional
-        For the layer quads. The layer layout draws that of the solution if it has been made.
+        For the layer quads.
 
     Returns
     -------
@@ -80,34 +84,42 @@ def render(
     check(path, layers=layers, size=size, scale=scale, camera=camera)
     chosen: Mapping[str, LayerSettings] = layers_named(layers) if layers else default_layers()
     cut_graph = solution.cut_graph if chosen["cut"].visible else None
-    meshes = _meshes(solution, chosen, quads)  # before the field, which they may turn
     view = field_view(
-        turned_field(solution),
+        solution.field,
         cut_graph,
         layers=chosen,
         background="transparent" if transparent else background,
         **feature_lines(
             solution.features, solution.field, solution.problem.options.tolerance_degrees
         ),
-        **meshes,
+        **_meshes(solution, chosen, layout, quads),
     )
     return render_view(view, path, size=size, scale=scale, camera=camera)
 
 
 def _meshes(
-    solution: Solution, layers: Mapping[str, LayerSettings], quads: QuadMesh | None
+    solution: Solution,
+    layers: Mapping[str, LayerSettings],
+    layout: QuadLayout | None,
+    quads: QuadMesh | None,
 ) -> dict[str, Any]:
     """What the layers of separatrices, marks, layout and quads draw."""
     drawn: dict[str, Any] = {}
     if layers["separatrices"].visible or layers["marks"].visible:
-        curves = separatrices(solution)
+        curves = separatrices(solution, layout)
         drawn["separatrices"], drawn["t_junctions"] = curves_of(curves), t_junctions_of(curves)
         drawn["misaligned"] = misaligned_boundaries(solution)[1]
-    if solution.derived.layout is not None and layers["layout"].visible:
-        drawn["layout"] = patches_of(solution.derived.layout)
+    if layout is not None and layers["layout"].visible:
+        drawn["layout"] = patches_of(layout)
     if quads is not None:
         drawn["quads"] = quads_of(quads)
     return drawn
+
+
+def shows_curves(layers: Sequence[str] | None) -> bool:
+    """Whether separatrices are drawn, which are exact where `render` is given a layout."""
+    chosen = layers_named(layers) if layers else default_layers()
+    return chosen["separatrices"].visible or chosen["marks"].visible
 
 
 def check(

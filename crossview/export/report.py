@@ -21,8 +21,9 @@ from crossview.export.vtp import (
     singularity_points,
 )
 from crossview.io.staged_files import staged
+from crossview.workflow.layout import misaligned_boundaries, separatrices
 from crossview.workflow.pipeline import Solution
-from crossview.workflow.quads import misaligned_boundaries, separatrices
+from solvers.layouts.layout import QuadLayout
 from solvers.quads.quadmesh import QuadMesh
 from solvers.surface.validation import counted
 
@@ -31,15 +32,16 @@ FORMATS = ("vtk", "obj")
 """Of quad meshes, if no others are asked for."""
 
 
-def report(solution: Solution, quads: QuadMesh | None = None) -> dict[str, Any]:
+def report(
+    solution: Solution, layout: QuadLayout | None = None, quads: QuadMesh | None = None
+) -> dict[str, Any]:
     """The report of a solution as JSON values; angles in degrees, indices in quarter turns.
 
     "surface" is the surface as given, "solved_on" the one refined around the singularities
     (quality of triangles: 1 equilateral, 0 degenerate); "boundary_misalignment_degrees" follows
     the order of ``surface.boundary_loops`` of the first. "holonomy" and "isotropically_valid" are
     those of the isotropic field of the configuration, whatever the method. "layout" tells of the
-    separatrices, and of patches if the layout has been made; "quads" is there if a quad mesh is
-    given.
+    separatrices, and of patches if a layout is given; "quads" is there if a quad mesh is.
     """
     problem, field = solution.problem, solution.field
     surface, solved_on = problem.surface, solution.surface
@@ -79,7 +81,7 @@ def report(solution: Solution, quads: QuadMesh | None = None) -> dict[str, Any]:
         "features": _features(solution),
         "forced_corners": _forced_corners(solution),
         **_integrability(solution),
-        "layout": _layout(solution),
+        "layout": _layout(solution, layout),
         **({} if quads is None else {"quads": _quads(quads)}),
         "residual": float(field.residual),
         "max_closing_error": float(field.max_closing_error),
@@ -87,12 +89,12 @@ def report(solution: Solution, quads: QuadMesh | None = None) -> dict[str, Any]:
     }
 
 
-def quads_summary(solution: Solution, quads: QuadMesh) -> str:
+def quads_summary(layout: QuadLayout, quads: QuadMesh) -> str:
     """Counts and quality of the quads and their layout, in one line."""
-    layout, quality = _layout(solution), quads.scaled_jacobian
+    quality = quads.scaled_jacobian
     irregular, warning = sum(quads.irregular.values()), _inverted(quads)
-    patches = f"{layout['patches']} {'patch' if layout['patches'] == 1 else 'patches'}, "
-    patches += "conforming" if layout["conforming"] else f"{layout['t_junctions']} T-junctions"
+    patches = f"{layout.patches} {'patch' if layout.patches == 1 else 'patches'}, "
+    patches += "conforming" if layout.conforming else f"{len(layout.t_junctions)} T-junctions"
     return (
         f"{quads.n_quads} quads in {patches}; {counted(irregular, 'irregular vertex')}, "
         f"scaled Jacobian at least {quality.min():.2f}, mean {quality.mean():.3f}{warning}"
@@ -148,12 +150,14 @@ def _defects(solution: Solution) -> str:
 def write_solution(
     solution: Solution,
     directory: str | Path,
+    layout: QuadLayout | None = None,
     quads: QuadMesh | None = None,
     formats: Sequence[str] = FORMATS,
 ) -> None:
     """Write report.json and surface, crosses, cut_graph, singularities and separatrices as .vtp.
 
-    With quads also layout.vtp, and the quads in each of the formats. All or nothing: the files are
+    With quads also layout.vtp, and the quads in each of the formats. Separatrices are those of the
+    layout if one is given. All or nothing: the files are
     moved to `directory` when the last of them is complete.
 
     Raises
@@ -162,17 +166,18 @@ def write_solution(
         `directory` cannot be made or written.
     """
     with staged(directory) as staging:
-        write_files(solution, staging, quads, formats)
+        write_files(solution, staging, layout, quads, formats)
 
 
 def write_files(
     solution: Solution,
     directory: Path,
+    layout: QuadLayout | None = None,
     quads: QuadMesh | None = None,
     formats: Sequence[str] = FORMATS,
 ) -> None:
     """Write the files of `write_solution` one by one into an existing folder."""
-    separatrix_lines(solution).save(directory / "separatrices.vtp")  # may turn the field
+    separatrix_lines(separatrices(solution, layout)).save(directory / "separatrices.vtp")
     field_surface(solution).save(directory / "surface.vtp")
     cross_lines(solution).save(directory / "crosses.vtp")
     cut_lines(solution).save(directory / "cut_graph.vtp")
@@ -180,11 +185,13 @@ def write_files(
     if len(solution.features):
         feature_lines(solution).save(directory / "features.vtp")
     if quads is not None:
-        if solution.derived.layout is not None:
-            layout_patches(solution.derived.layout).save(directory / "layout.vtp")
+        if layout is not None:
+            layout_patches(layout).save(directory / "layout.vtp")
         for suffix in formats:
             write_mesh(quads, directory / f"quads.{suffix}")
-    text = json.dumps(report(solution, quads), indent=2, ensure_ascii=False, allow_nan=False)
+    text = json.dumps(
+        report(solution, layout, quads), indent=2, ensure_ascii=False, allow_nan=False
+    )
     (directory / REPORT).write_text(text + "\n", encoding="utf-8")
 
 
@@ -206,9 +213,9 @@ def _integrability(solution: Solution) -> dict[str, Any]:
     }
 
 
-def _layout(solution: Solution) -> dict[str, Any]:
+def _layout(solution: Solution, layout: QuadLayout | None) -> dict[str, Any]:
     """The separatrices, what they miss, and the patches between them if there are any."""
-    curves, layout = separatrices(solution), solution.derived.layout
+    curves = separatrices(solution, layout)
     own = curves.valences >= 0
     return {
         "separatrices": int(np.count_nonzero(own)),

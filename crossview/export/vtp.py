@@ -9,8 +9,8 @@ import pyvista as pv
 from numpy.typing import NDArray
 
 from crossview.workflow.pipeline import Solution
-from crossview.workflow.quads import separatrices, turned_field
 from solvers.layouts.layout import QuadLayout
+from solvers.layouts.separatrices import Separatrices
 
 ARM = 0.35
 """Length of a cross's arm in a triangle of typical H, in lengths of the triangle's size."""
@@ -23,7 +23,7 @@ def field_surface(solution: Solution) -> pv.PolyData:
     H1 and H2 (log sizes along u and v at the barycentre), log_aspect = |H2 - H1| and
     error_density, which integrates to the square of E.
     """
-    field = turned_field(solution)
+    field = solution.field
     mesh = pv.PolyData.from_regular_faces(solution.surface.vertices, solution.surface.faces)
     mesh.point_data["H"] = field.H
     mesh.cell_data["theta"] = field.theta
@@ -42,7 +42,7 @@ def cross_lines(solution: Solution) -> pv.PolyData:
     Cell data: "face" the triangle of ``surface.vtp``, "axis" 0 for u and 1 for v, "H" the log
     size along the line.
     """
-    field, surface = turned_field(solution), solution.surface
+    field, surface = solution.field, solution.surface
     H = np.stack([field.H1.mean(axis=1), field.H2.mean(axis=1)], axis=1)
     # a typical cross just fits its triangle
     typical = ARM * np.sqrt(np.median(surface.face_areas))
@@ -87,14 +87,13 @@ def singularity_points(solution: Solution) -> pv.PolyData:
     return mesh
 
 
-def separatrix_lines(solution: Solution) -> pv.PolyData:
-    """The separatrices as polylines.
+def separatrix_lines(curves: Separatrices) -> pv.PolyData:
+    """Separatrices as polylines.
 
     Cell data: "valence" of the singularity each leaves (0 for a corner, -1 for a curve added to
     make rectangles), "end" 0 at a singularity or corner, 1 on the boundary, 2 at a T-junction, 3
     for a curve cut for its length.
     """
-    curves = separatrices(solution)
     mesh = pv.PolyData()
     mesh.points = curves.points.astype(np.float64).reshape(-1, 3)
     numbers = np.arange(len(curves.points))

@@ -7,8 +7,9 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from crossview.workflow.layout import SOON, layout, misaligned_boundaries, separatrices
 from crossview.workflow.pipeline import Solution
-from crossview.workflow.quads import MeshOptions, layout, mesh, misaligned_boundaries, separatrices
+from crossview.workflow.quads import MeshOptions, quads
 from solvers.fields.crossfield import CrossField
 from solvers.layouts.errors import LayoutError
 from solvers.layouts.layout import QuadLayout
@@ -60,9 +61,11 @@ Making = Generator[Progress, None, Meshes]
 def trace(solution: Solution, made: Meshes) -> Making:
     """Trace the separatrices of a solution, and find the boundaries that it misses.
 
-    They are exact once there is a layout.
+    They are exact where there is a layout, or one is soon made.
     """
     yield Progress("tracing separatrices", 0.0)
+    if made.layout is None and solution.surface.n_faces <= SOON:
+        return (yield from lay_out(solution, made))
     return _traced(solution, made)
 
 
@@ -71,10 +74,10 @@ def lay_out(solution: Solution, made: Meshes) -> Making:
     try:
         found = yield from layout(solution)
     except LayoutError as trouble:
-        return replace(_traced(solution, made), layout=None, trouble=trouble)
+        return _traced(solution, replace(made, layout=None, trouble=trouble))
     yield Progress("sampling the patches", 1.0)
     _ = found.patch_mesh  # cached: drawing asks for it
-    return replace(_traced(solution, made), layout=found, trouble=None)
+    return _traced(solution, replace(made, layout=found, trouble=None))
 
 
 def make_quads(solution: Solution, made: Meshes, options: MeshOptions) -> Making:
@@ -86,14 +89,14 @@ def make_quads(solution: Solution, made: Meshes, options: MeshOptions) -> Making
         laid_out = yield from between(lay_out(solution, made), 0.0, share)
     if laid_out.layout is None:
         return laid_out
-    filling = mesh(laid_out.layout, options)
-    quads = yield from between(filling, share, 1.0)
-    _ = quads.scaled_jacobian, quads.irregular, quads.corners, quads.on_boundary
-    return replace(laid_out, quads=quads, options=options)
+    filling = quads(laid_out.layout, options)
+    filled = yield from between(filling, share, 1.0)
+    _ = filled.scaled_jacobian, filled.irregular, filled.corners, filled.on_boundary
+    return replace(laid_out, quads=filled, options=options)
 
 
 def _traced(solution: Solution, made: Meshes) -> Meshes:
     """Return `made` with the best separatrices there are and the boundaries that are missed."""
     _, places = misaligned_boundaries(solution)
-    found = separatrices(solution)
+    found = separatrices(solution, made.layout)
     return replace(made, of=solution.field, separatrices=found, settled=True, misaligned=places)

@@ -16,13 +16,13 @@ from crossview.workflow.problem import Problem, problems_of
 from crossview.workflow.sizes import read_sizes, refined_sizes
 from crossview.workflow.solution import Solution
 from solvers.errors import CrossviewError
-from solvers.fields.aligned import AlignedField, IntegratedField, aligned_field
+from solvers.fields.aligned import AlignedField, IntegratedField
 from solvers.fields.crossfield import CrossField
 from solvers.fields.integrable import FieldStep
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.fields.prepared import PreparedSurface, prepare
 from solvers.fields.verdict import judge
-from solvers.layouts.turning import joining
+from solvers.layouts.turning import joined_field, joining
 from solvers.progress import Progress, between
 from solvers.singularities.budget import require_budget
 from solvers.surface.triangulation import FloatArray
@@ -131,9 +131,7 @@ class Pipeline:
         for kept in self._kept.values():
             if kept.integrated is not None:
                 return kept.integrated.aligned
-        turned = joining(prepared.operators.own, prepared.singularities)
-        like = turned.solve(prepared.singularities)
-        return aligned_field(prepared, problem.options.turns, like=like)
+        return joined_field(prepared, problem.options.turns)
 
 
 def _integrated(

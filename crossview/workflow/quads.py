@@ -1,36 +1,28 @@
-"""From a solution to separatrices, quad layout and quad mesh."""
+"""From a quad layout to its quad mesh."""
 
 from __future__ import annotations
 
-import contextlib
 import time
 from collections.abc import Generator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from crossview.workflow.layout import layout
 from crossview.workflow.solution import Solution
 from solvers.errors import CrossviewError
-from solvers.fields.aligned import IntegratedField, aligned_field
 from solvers.fields.crossfield import CrossField
-from solvers.layouts.errors import LayoutError
-from solvers.layouts.layout import QuadLayout, quad_layout
-from solvers.layouts.separatrices import Separatrices, field_separatrices
-from solvers.progress import Progress, between, run
+from solvers.layouts.layout import QuadLayout
+from solvers.progress import Progress, between
 from solvers.quads.filling import fill
 from solvers.quads.quadmesh import QuadMesh
 from solvers.quads.quantization import quantize, quantize_to
 from solvers.quads.smoothing import smooth
-from solvers.remedies import ANISOTROPIC, MAKE_VALID, Remedy
-from solvers.surface.triangulation import FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface
 
 DEFAULT_QUADS = 5_000
 MOST_QUADS = 2_000_000
 """More are not asked for but by a slip of the pen."""
-
-SOON = 50_000
-"""Triangles up to which a layout takes seconds at most."""
 
 
 @dataclass(frozen=True)
@@ -95,72 +87,7 @@ class MeshOptions:
         return max(1, round(number))
 
 
-def separatrices(solution: Solution) -> Separatrices:
-    """The separatrices of a solution, kept once traced.
-
-    Those of its layout, exact, where it can have one and has it or gets it soon; else those of its
-    field, near and quick.
-
-    Parameters
-    ----------
-    solution : Solution
-    """
-    derived = solution.derived
-    soon = solution.surface.n_faces <= SOON and derived.separatrices is None
-    if derived.layout is None and soon:
-        with contextlib.suppress(CrossviewError):
-            run(layout(solution))
-    if derived.layout is not None:
-        return derived.layout.separatrices
-    if derived.separatrices is None:
-        derived.separatrices = field_separatrices(solution.field)
-    return derived.separatrices
-
-
-def turned_field(solution: Solution) -> CrossField:
-    """The field as the separatrices have it: where no boundary fixes it, its layout may turn it."""
-    layout = solution.derived.layout
-    if layout is None or layout.turned == 0:
-        return solution.field
-    return replace(solution.field, theta=solution.field.theta + layout.turned)
-
-
-def misaligned_boundaries(solution: Solution) -> tuple[IntArray, FloatArray]:
-    """The boundaries that the field is not aligned with.
-
-    Returns
-    -------
-    loops : (k,) int array
-        Numbers in ``solution.surface.boundary_loops``.
-    places : (k, 3) float array
-        A point on each, for a mark.
-    """
-    tolerance = np.radians(solution.problem.options.tolerance_degrees)
-    loops = np.flatnonzero(np.abs(solution.field.boundary_misalignment) > tolerance)
-    surface = solution.surface
-    first = np.array([surface.boundary_loops[i][0] for i in loops], dtype=np.int64)
-    return loops, surface.vertices[first].reshape(-1, 3)
-
-
-def layout(solution: Solution) -> Generator[Progress, None, QuadLayout]:
-    """Cut the surface of a solution into rectangles along its separatrices; kept once made.
-
-    Raises
-    ------
-    LayoutError
-        The field misses a boundary or is not integrable, there is no quad mesh with these
-        singularities, or triangles are turned over in the map.
-    """
-    derived = solution.derived
-    if derived.layout is None:
-        _require_possible(solution)
-        yield Progress("aligning with the boundaries", 0.0)
-        integrated = _integrated(solution)
-        derived.layout = yield from quad_layout(integrated)
-    return derived.layout
-
-
-def mesh(layout: QuadLayout, options: MeshOptions) -> Generator[Progress, None, QuadMesh]:
+def quads(layout: QuadLayout, options: MeshOptions) -> Generator[Progress, None, QuadMesh]:
     """Fill a layout with quads.
 
     Parameters
@@ -197,7 +124,7 @@ def mesh(layout: QuadLayout, options: MeshOptions) -> Generator[Progress, None, 
 
 def quads_of(
     solution: Solution, options: MeshOptions
-) -> Generator[Progress, None, tuple[Solution, QuadMesh]]:
+) -> Generator[Progress, None, tuple[Solution, QuadLayout, QuadMesh]]:
     """Make the layout and the quads of a solution.
 
     Parameters
@@ -209,36 +136,21 @@ def quads_of(
     -------
     Solution
         The same, with the seconds of the two stages.
+    QuadLayout
     QuadMesh
 
     Raises
     ------
     CrossviewError
-        As `layout` and `mesh`; what is wrong with the options is told before anything is made.
+        As `layout` and `quads`; what is wrong with the options is told before anything is made.
     """
     options.number_on(solution.surface)
     start = time.perf_counter()
     made = yield from between(layout(solution), 0.0, 0.5)
     middle = time.perf_counter()
-    quads = yield from between(mesh(made, options), 0.5, 1.0)
+    filled = yield from between(quads(made, options), 0.5, 1.0)
     seconds = {"layout": middle - start, "quads": time.perf_counter() - middle}
-    return replace(solution, seconds={**solution.seconds, **seconds}), quads
-
-
-def _require_possible(solution: Solution) -> None:
-    """Refuse what no map can mend; the layout itself judges integrability."""
-    loops, _ = misaligned_boundaries(solution)
-    if len(loops):
-        misses = "a boundary" if len(loops) == 1 else f"{len(loops)} boundaries"
-        raise _misses(misses, solution.field.boundary_misalignment, MAKE_VALID, ANISOTROPIC)
-    if solution.verdict.status in ("impossible", "unknown"):
-        reason = solution.verdict.reason.rstrip(".")
-        raise LayoutError(f"no quads: {reason}", remedies=solution.verdict.remedies)
-    off = np.abs(np.degrees(solution.field.feature_misalignment))
-    missed = np.count_nonzero(off > solution.problem.options.tolerance_degrees)
-    if missed:
-        misses = "a feature curve" if missed == 1 else f"{missed} feature curves"
-        raise _misses(misses, solution.field.feature_misalignment, ANISOTROPIC)
+    return replace(solution, seconds={**solution.seconds, **seconds}), made, filled
 
 
 def _require_closing(field: CrossField) -> None:
@@ -250,16 +162,3 @@ def _require_closing(field: CrossField) -> None:
             f"singularity {', '.join(map(str, lone))}",
             "take valence 2 or more there, such as a 2 and a 3 (split)",
         )
-
-
-def _misses(what: str, angles: FloatArray, *remedies: Remedy) -> LayoutError:
-    worst = np.degrees(np.abs(angles).max())
-    return LayoutError(f"the field misses {what}, by up to {worst:.3g} degrees", remedies=remedies)
-
-
-def _integrated(solution: Solution) -> IntegratedField:
-    """The field in a form that has a map; an isotropic one may have to be solved again."""
-    if solution.integrated is not None:
-        return solution.integrated
-    aligned = aligned_field(solution.prepared, like=solution.field)
-    return IntegratedField(aligned, aligned.start)

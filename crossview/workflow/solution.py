@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -16,27 +15,11 @@ from solvers.fields.crossfield import CrossField
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.fields.prepared import PreparedSurface
 from solvers.fields.verdict import Verdict
-from solvers.layouts.layout import QuadLayout
-from solvers.layouts.separatrices import Separatrices
+from solvers.layouts.separatrices import Separatrices, field_separatrices
 from solvers.singularities.budget import Singularity
 from solvers.surface.refinement import Refinement
 from solvers.surface.triangulation import FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface
-
-
-@dataclass(eq=False)
-class Derived:
-    """What is made of a solution when it is first asked for, and then kept.
-
-    Attributes
-    ----------
-    separatrices : Separatrices, or None
-        Of the field.
-    layout : QuadLayout, or None
-    """
-
-    separatrices: Separatrices | None = None
-    layout: QuadLayout | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,8 +46,6 @@ class Solution:
         Of int |grad s|^2 on a once refined mesh; None if not asked for.
     inverted : int, or None
         Triangles turned over in the seamless map; None where the field has none.
-    derived : Derived
-        Shared by copies that differ in nothing but their seconds, or an equal problem.
     """
 
     problem: Problem
@@ -77,7 +58,6 @@ class Solution:
     verdict: Verdict
     growth: float | None = None
     inverted: int | None = None
-    derived: Derived = dataclasses.field(default_factory=Derived, repr=False)
 
     @property
     def surface(self) -> TriSurface:
@@ -103,6 +83,11 @@ class Solution:
     def cut_graph(self) -> IntArray:
         """(k, 2) vertex pairs of `surface` that cut it to a disk and meet every singularity."""
         return self.solver.cut_graph(self.singularities)
+
+    @cached_property
+    def separatrices(self) -> Separatrices:
+        """Traced along the crosses: quick, and near those of a layout."""
+        return field_separatrices(self.field)
 
     @property
     def valid(self) -> bool:

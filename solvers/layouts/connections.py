@@ -2,8 +2,7 @@
 
 A trace that passes a node closer than the mesh resolves is taken to mean it: that its node and the
 one it passes lie on one line of the map becomes a condition on the map. So it does where a trace
-ends at a node that lies off it by more than rounding. Where the field may be turned as a whole, it
-is turned to where most neighbours lie on common lines.
+ends at a node that lies off it by more than rounding.
 """
 
 from __future__ import annotations
@@ -11,11 +10,11 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import coo_array, csc_array
 
-from solvers.layouts.charts import AXES, QUARTER, ComplexArray
+from solvers.layouts.charts import AXES, ComplexArray
 from solvers.layouts.crossings import Crossings, ends_of
 from solvers.layouts.stops import doubled
 from solvers.layouts.tracing import NODE, Traces
-from solvers.surface.triangulation import FloatArray, IntArray, wrap
+from solvers.surface.triangulation import FloatArray, IntArray
 
 NEAR = 0.02
 """Nodes this much off a line, of its length, are put on it, if the mesh does not resolve that.
@@ -31,9 +30,6 @@ ROUNDING = 1e-9
 """How far beside its end a trace may run for nothing but rounding, in typical edges of the map.
 Chosen, far above it.
 """
-
-ALIKE = np.radians(1.0)
-"""Spread of directions between nodes that count as one when a turn is chosen, radians. Chosen."""
 
 
 def passing(traces: Traces, crossings: Crossings, n_nodes: int) -> IntArray:
@@ -91,17 +87,15 @@ def beside(traces: Traces) -> IntArray:
     return last[np.abs(off) > ROUNDING * chart.edge_length]
 
 
-def conditions(traces: Traces, passed: IntArray, turn: float) -> csc_array:
+def conditions(traces: Traces, passed: IntArray) -> csc_array:
     """Return the rows (p, 6 m) that take the passed nodes onto the traces.
 
     Parameters
     ----------
     traces : Traces
-        In the map of images turned by `-turn`.
+        In the map.
     passed : (p, 2) int array
         What passes what, as `passing` returns it.
-    turn : float
-        See `traces`, radians.
 
     Returns
     -------
@@ -117,20 +111,18 @@ def conditions(traces: Traces, passed: IntArray, turn: float) -> csc_array:
         turned = AXES[axis[b]] / AXES[axis[a]]
         factor = [over[1], between[1] / AXES[axis[a]], -turned * back[1]]
         ways.append((halfedge, np.concatenate(factor)))
-    return _offsets_across(traces, ways, turn)
+    return _offsets_across(traces, ways)
 
 
-def ending(traces: Traces, last: IntArray, turn: float) -> csc_array:
+def ending(traces: Traces, last: IntArray) -> csc_array:
     """Return the rows (e, 6 m) that take the nodes where traces end onto them.
 
     Parameters
     ----------
     traces : Traces
-        In the map of images turned by `-turn`.
+        In the map.
     last : (e,) int array
         The last chords of the traces, as `beside` returns them.
-    turn : float
-        See `traces`, radians.
 
     Returns
     -------
@@ -144,20 +136,17 @@ def ending(traces: Traces, last: IntArray, turn: float) -> csc_array:
         on = _steps(_reference(traces, a), int(chords.side_out[a]))
         halfedge = np.concatenate([over[0], 3 * chords.face[a] + on[0]])
         ways.append((halfedge, np.concatenate([over[1], on[1] / AXES[chords.axis[a]]])))
-    return _offsets_across(traces, ways, turn)
+    return _offsets_across(traces, ways)
 
 
-def _offsets_across(
-    traces: Traces, ways: list[tuple[IntArray, ComplexArray]], turn: float
-) -> csc_array:
+def _offsets_across(traces: Traces, ways: list[tuple[IntArray, ComplexArray]]) -> csc_array:
     """Return rows whose products with the images are the parts of ways across their traces."""
     rows, columns, values = [], [], []
     for number, (halfedge, factor) in enumerate(ways):
         # Across the trace: the imaginary part of factor times image.
-        seen = factor * np.exp(-1j * turn)
         rows.append(np.full(2 * len(halfedge), number))
         columns.append(np.stack([2 * halfedge, 2 * halfedge + 1], axis=1).reshape(-1))
-        values.append(np.stack([seen.imag, seen.real], axis=1).reshape(-1))
+        values.append(np.stack([factor.imag, factor.real], axis=1).reshape(-1))
     shape = (len(ways), 6 * traces.chart.triangulation.n_faces)
     if not rows:
         return csc_array(shape)
@@ -194,43 +183,3 @@ def _steps(start: int, end: int) -> tuple[IntArray, ComplexArray]:
     if end == (start + 1) % 3:
         return np.array([start]), np.array([1.0 + 0j])
     return np.array([end]), np.array([-1.0 + 0j])
-
-
-def best_turn(traces: Traces, crossings: Crossings, most: float) -> float:
-    """Return the angle to turn all crosses by so that most neighbouring nodes lie on lines.
-
-    Every crossing of traces from two nodes tells the direction from one to the other in the map;
-    directions that agree vote together, near nodes more.
-
-    Parameters
-    ----------
-    traces, crossings
-        The traces and where they cross.
-    most : float
-        Largest angle, radians.
-
-    Returns
-    -------
-    float
-        Radians.
-    """
-    chords = traces.chords
-    a, b = crossings.chord.T
-    to_right = (chords.axis[b] - chords.axis[a]) % 4 == 3
-    way = crossings.at[:, 0] + 1j * np.where(to_right, 1, -1) * crossings.at[:, 1]
-    angle = wrap(np.angle(way), QUARTER)
-    # Nearer than some triangles it is the mesh that speaks.
-    counts = (np.abs(way) > 4 * traces.chart.edge_length) & (np.abs(angle) <= most)
-    weight = counts / np.maximum(np.abs(way), 1e-300) ** 2
-    if not counts.any():
-        return 0.0
-    heaviest = np.argsort(-weight, kind="stable")[:2000]
-    angle, weight = angle[heaviest], weight[heaviest]
-
-    def apart(one: FloatArray) -> FloatArray:
-        return wrap(angle - one, QUARTER)
-
-    votes = [weight @ np.exp(-0.5 * (apart(one) / ALIKE) ** 2) for one in angle]
-    best = angle[int(np.argmax(votes))]
-    kernel = weight * np.exp(-0.5 * (apart(best) / ALIKE) ** 2)
-    return float(wrap(best + kernel @ apart(best) / kernel.sum(), QUARTER))

@@ -79,11 +79,11 @@ class Drawing:
         same = rimmed is self.traces
         crossed = self.crossings if same else crossings(rimmed.chart, rimmed.chords)
         found = passing(rimmed, crossed, len(self._nodes))
-        return conditions(rimmed, found, self._map.turned)
+        return conditions(rimmed, found)
 
     def loose_ends(self) -> csc_array:
         """Return how far nodes where traces end are off them, where it is more than rounding."""
-        return ending(self.traces, beside(self.traces), self._map.turned)
+        return ending(self.traces, beside(self.traces))
 
     def again(self, longest: float | None = None) -> Drawing:
         """Return the same in the map as it is now, perhaps with longer traces."""

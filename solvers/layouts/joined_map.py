@@ -7,14 +7,11 @@ from scipy.sparse import csc_array
 
 from solvers.features.edges import Features
 from solvers.fields.aligned import IntegratedField
-from solvers.layouts.charts import QUARTER, Chart
+from solvers.layouts.charts import Chart
 from solvers.layouts.errors import LayoutError
 from solvers.maps.seamless import SeamlessFit
 from solvers.surface.triangulation import IntArray
 from solvers.surface.trisurface import TriSurface
-
-LITTLE = np.radians(2)
-"""By how much the map may turn crosses that were turned before it was made, radians. Chosen."""
 
 MOST = 50
 """Separatrices that are joined at once. Chosen: each needs a solve."""
@@ -27,7 +24,7 @@ Chosen; measured on annuli of 4 000 to 12 000 triangles, without any join: 0.01 
 
 
 class JoinedMap:
-    """The seamless map of a field while it is turned and joined.
+    """The seamless map of a field while it is joined.
 
     Parameters
     ----------
@@ -38,31 +35,18 @@ class JoinedMap:
     ----------
     chart : Chart
         The map as it is now.
-    turned : float
-        Angle that all crosses have been turned by, radians.
     """
 
     def __init__(self, integrated: IntegratedField) -> None:
         self.integrated = integrated
         self._integrability = integrated.aligned.integrability
         self._fit = SeamlessFit(integrated)
-        self.turned = 0.0
         self.chart = self._chart()
 
     @property
     def surface(self) -> TriSurface:
         """What is mapped."""
         return self.integrated.field.surface
-
-    @property
-    def play(self) -> float:
-        """By how much all crosses may be turned and are as good, radians: 0 if something holds
-        them, little if they have been turned to be as they are.
-        """
-        bound = bool(self.surface.boundary_loops) or len(self.features) > 0
-        if bound or self.integrated.field.half_log_aspect.any():
-            return 0.0
-        return QUARTER / 2 if self.integrated.aligned.turned is None else LITTLE
 
     @property
     def features(self) -> Features:
@@ -78,11 +62,6 @@ class JoinedMap:
     def flipped(self) -> IntArray:
         """Triangles turned over."""
         return self._fit.map.flipped
-
-    def turn(self, angle: float) -> None:
-        """Turn all crosses."""
-        self.turned = angle
-        self.chart = self._chart()
 
     def join(self, rows: csc_array) -> bool:
         """Fit the map again so that also combinations of images vanish: of the first as many rows
@@ -100,7 +79,7 @@ class JoinedMap:
         return False
 
     def _chart(self) -> Chart:
-        images = self._fit.map.images @ np.array([1, 1j]) * np.exp(-1j * self.turned)
+        images = self._fit.map.images @ np.array([1, 1j])
         return Chart(self.surface.triangulation, images, self._integrability.quarter_turns)
 
     def require_upright(self) -> None:

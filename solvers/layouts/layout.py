@@ -10,7 +10,6 @@ import numpy as np
 
 from solvers.fields.aligned import IntegratedField
 from solvers.layouts.arrangement import Arrangement
-from solvers.layouts.connections import best_turn
 from solvers.layouts.drawing import LONGEST, Drawing
 from solvers.layouts.errors import LayoutError
 from solvers.layouts.joined_map import JoinedMap
@@ -24,7 +23,7 @@ from solvers.surface.triangulation import FloatArray
 from solvers.surface.trisurface import TriSurface
 
 SHORT = 1.5
-"""Length of traces, in diameters, while the map is turned and joined."""
+"""Length of traces, in diameters, while the map is joined."""
 
 JOININGS = 4
 """How often the map is fitted again so that separatrices meet the nodes they nearly meet."""
@@ -52,8 +51,6 @@ class QuadLayout:
         Triangles turned over in the map.
     mended : int
         Triangles made stiffer so that they are not.
-    turned : float
-        Angle by which all crosses were turned, radians; 0 where the boundary fixes them.
     """
 
     integrated: IntegratedField
@@ -61,7 +58,6 @@ class QuadLayout:
     separatrices: Separatrices
     flips: int
     mended: int
-    turned: float
 
     @property
     def surface(self) -> TriSurface:
@@ -126,9 +122,6 @@ def quad_layout(integrated: IntegratedField) -> Generator[Progress, None, QuadLa
     singular = singular_nodes(map_.chart, integrated.field)
     featured = feature_nodes(map_.chart, map_.features, {n.vertex for n in singular})
     drawing = Drawing(map_, singular, featured, SHORT)
-    if map_.play:
-        map_.turn(best_turn(drawing.traces, drawing.crossings, map_.play))
-        drawing = drawing.again()
     for _ in range(JOININGS):
         yield Progress("joining separatrices", 0.6)
         if not map_.join(drawing.offsets()):
@@ -148,7 +141,6 @@ def quad_layout(integrated: IntegratedField) -> Generator[Progress, None, QuadLa
         drawing.separatrices(),
         len(map_.flipped),
         map_.mended,
-        map_.turned,
     )
 
 

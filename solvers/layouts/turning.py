@@ -8,17 +8,22 @@ from dataclasses import replace
 import numpy as np
 
 from solvers.algebra.operators import midpoint_offsets
+from solvers.fields.aligned import AlignedField, aligned_field
 from solvers.fields.crossfield import CrossField
 from solvers.fields.isotropic import IsotropicSolver
+from solvers.fields.prepared import PreparedSurface
 from solvers.layouts.charts import QUARTER, Chart
-from solvers.layouts.connections import best_turn
-from solvers.layouts.crossings import crossings
+from solvers.layouts.crossings import Crossings, crossings
 from solvers.layouts.nodes import singular_nodes, starts_at
-from solvers.layouts.tracing import trace
+from solvers.layouts.tracing import Traces, trace
 from solvers.singularities.budget import Singularity
+from solvers.surface.triangulation import FloatArray, wrap
 
 FAR = 1.5
 """Length of the curves that are looked at, in square roots of the area in the map."""
+
+ALIKE = np.radians(1.0)
+"""Spread of directions between nodes that count as one when a turn is chosen, radians. Chosen."""
 
 SETTLED, ROUNDS = 1e-4, 5
 """Turn, radians, after which none more is sought, and how many are at most."""
@@ -37,6 +42,18 @@ def joining(solver: IsotropicSolver, singularities: Sequence[Singularity]) -> Is
     if not solver.may_turn or not singularities:
         return solver
     return solver.turned(joining_turn(solver.solve(singularities)))
+
+
+def joined_field(prepared: PreparedSurface, turns: Sequence[int] | None = None) -> AlignedField:
+    """Return the aligned field, turned so that separatrices join where nothing else fixes it.
+
+    Parameters
+    ----------
+    prepared, turns
+        As of `aligned_field`.
+    """
+    solver = joining(prepared.operators.own, prepared.singularities)
+    return aligned_field(prepared, turns, like=solver.solve(prepared.singularities))
 
 
 def joining_turn(field: CrossField) -> float:
@@ -69,7 +86,7 @@ def _turn(field: CrossField) -> float:
     nodes = singular_nodes(chart, field)
     far = FAR * float(chart.area) ** 0.5
     traces = trace(chart, nodes, starts_at(chart, nodes), 0.0, far)
-    return best_turn(traces, crossings(chart, traces.chords), QUARTER / 2)
+    return _best_turn(traces, crossings(chart, traces.chords))
 
 
 def _chart(field: CrossField) -> Chart:
@@ -86,3 +103,31 @@ def _chart(field: CrossField) -> Chart:
     rough = Chart.of_field(field)
     over = (sides[:, 0].conj() * -sides[:, 2]).imag <= 0  # in next to flat triangles
     return replace(rough, images=np.where(over[:, None], rough.images, sides))
+
+
+def _best_turn(traces: Traces, crossings: Crossings) -> float:
+    """Return the angle to turn all crosses by so that most neighbouring nodes lie on lines.
+
+    Every crossing of traces from two nodes tells the direction from one to the other in the map;
+    directions that agree vote together, near nodes more.
+    """
+    chords = traces.chords
+    a, b = crossings.chord.T
+    to_right = (chords.axis[b] - chords.axis[a]) % 4 == 3
+    way = crossings.at[:, 0] + 1j * np.where(to_right, 1, -1) * crossings.at[:, 1]
+    angle = wrap(np.angle(way), QUARTER)
+    # Nearer than some triangles it is the mesh that speaks.
+    counts = np.abs(way) > 4 * traces.chart.edge_length
+    weight = counts / np.maximum(np.abs(way), 1e-300) ** 2
+    if not counts.any():
+        return 0.0
+    heaviest = np.argsort(-weight, kind="stable")[:2000]
+    angle, weight = angle[heaviest], weight[heaviest]
+
+    def apart(one: FloatArray) -> FloatArray:
+        return wrap(angle - one, QUARTER)
+
+    votes = [weight @ np.exp(-0.5 * (apart(one) / ALIKE) ** 2) for one in angle]
+    best = angle[int(np.argmax(votes))]
+    kernel = weight * np.exp(-0.5 * (apart(best) / ALIKE) ** 2)
+    return float(wrap(best + kernel @ apart(best) / kernel.sum(), QUARTER))

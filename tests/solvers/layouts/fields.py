@@ -8,11 +8,11 @@ import numpy as np
 
 from solvers.features.edges import Features
 from solvers.features.sharp_edges import sharp_edges
-from solvers.fields.aligned import IntegratedField, aligned_field
+from solvers.fields.aligned import IntegratedField
 from solvers.fields.integrable import anisotropic_field
 from solvers.fields.prepared import prepare
 from solvers.layouts.layout import QuadLayout, quad_layout
-from solvers.layouts.turning import joining
+from solvers.layouts.turning import joined_field
 from solvers.primitives import BUILTIN
 from solvers.progress import run
 from solvers.singularities.budget import Singularity
@@ -30,9 +30,7 @@ def integrated(
     features: Features | None = None,
 ) -> IntegratedField:
     """The aligned field on a refined surface, made integrable if it is not."""
-    prepared = prepare(surface, singularities, features=features)
-    turned = joining(prepared.operators.own, prepared.singularities)
-    aligned = aligned_field(prepared, like=turned.solve(prepared.singularities))
+    aligned = joined_field(prepare(surface, singularities, features=features))
     start = IntegratedField(aligned, aligned.start)
     return start if start.field.energy < 1e-3 else run(anisotropic_field(aligned))
 

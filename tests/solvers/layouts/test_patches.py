@@ -5,9 +5,10 @@ from collections.abc import Callable, Sequence
 import numpy as np
 import pytest
 
-from solvers.fields.aligned import IntegratedField, aligned_field
+from solvers.fields.aligned import IntegratedField
 from solvers.fields.prepared import prepare
 from solvers.layouts.layout import QuadLayout, quad_layout
+from solvers.layouts.turning import joined_field
 from solvers.primitives import cube_sphere, square
 from solvers.progress import run
 from solvers.singularities.budget import Singularity
@@ -15,7 +16,7 @@ from solvers.surface.trisurface import TriSurface
 
 
 def layout_of(surface: TriSurface, singularities: Sequence[Singularity] = ()) -> QuadLayout:
-    aligned = aligned_field(prepare(surface, singularities, refine=0))
+    aligned = joined_field(prepare(surface, singularities, refine=0))
     return run(quad_layout(IntegratedField(aligned, aligned.start)))
 
 
