@@ -2,21 +2,32 @@
 
 from __future__ import annotations
 
+from solvers.fields.aligned import AlignedField, IntegratedField, aligned_field
 from solvers.fields.connection import Condition
 from solvers.fields.crossfield import Convergence, CrossField
 from solvers.fields.holonomy import Holonomy
+from solvers.fields.integrable import FieldStep, alternating_field, anisotropic_field
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.fields.natural import CrossesStep, natural_singularities
 from solvers.fields.prepared import PreparedSurface, prepare
+from solvers.fields.verdict import Verdict, judge
 
 __all__ = [
+    "AlignedField",
     "Condition",
     "Convergence",
     "CrossField",
     "CrossesStep",
+    "FieldStep",
     "Holonomy",
+    "IntegratedField",
     "IsotropicSolver",
     "PreparedSurface",
+    "Verdict",
+    "aligned_field",
+    "alternating_field",
+    "anisotropic_field",
+    "judge",
     "natural_singularities",
     "prepare",
 ]

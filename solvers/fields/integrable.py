@@ -43,6 +43,22 @@ class FieldStep(Progress):
         E at the start and after each iteration so far.
     so_far : IntegratedField
         The field of this iteration, not converged; its parts are computed when asked for.
+
+    Examples
+    --------
+    >>> from solvers import run
+    >>> from solvers.fields import FieldStep, aligned_field, anisotropic_field, prepare
+    >>> from solvers.primitives import annulus
+    >>> from solvers.singularities import Singularity
+    >>> surface = annulus(n=36)
+    >>> three = Singularity(surface.closest_point([0.8, 0.0, 0.0]), 3)
+    >>> five = Singularity(surface.closest_point([0.5, 0.3, 0.0]), 5)
+    >>> steps = []
+    >>> end = run(anisotropic_field(aligned_field(prepare(surface, [three, five]))), steps.append)
+    >>> all(isinstance(step, FieldStep) for step in steps)
+    True
+    >>> steps[-1].energies == end.convergence.energies
+    True
     """
 
     energies: tuple[float, ...]
@@ -67,11 +83,32 @@ def anisotropic_field(
     Returns
     -------
     IntegratedField
+        The best found, converged or not; the result of the computation, for `solvers.run`.
 
     Raises
     ------
     CrossviewError
         If the sizes have the wrong length or are not positive and finite.
+
+    Notes
+    -----
+    The smallest step onto E = 0 (paper, equation intError), linearised, in an augmented-Lagrangian
+    form; quadratic convergence where the paper's alternation stalls.
+
+    Examples
+    --------
+    >>> from solvers import run
+    >>> from solvers.fields import aligned_field, anisotropic_field, prepare
+    >>> from solvers.primitives import annulus
+    >>> from solvers.singularities import Singularity
+    >>> surface = annulus(n=36)
+    >>> three = Singularity(surface.closest_point([0.8, 0.0, 0.0]), 3)
+    >>> five = Singularity(surface.closest_point([0.5, 0.3, 0.0]), 5)
+    >>> field = run(anisotropic_field(aligned_field(prepare(surface, [three, five])))).field
+    >>> field.convergence.energies[0] > 0.1, field.energy < 1e-11
+    (True, True)
+    >>> bool(abs(field.boundary_misalignment).max() < 1e-9)
+    True
     """
     target = np.zeros((aligned.isotropic.surface.n_faces, 2, 3))
     if sizes is not None:
@@ -101,6 +138,25 @@ def alternating_field(
         Where to start.
     weight : float, optional
         Of the proximal term; the paper's is 1.
+
+    Returns
+    -------
+    IntegratedField
+        Where E no longer falls; the result of the computation, for `solvers.run`.
+
+    Examples
+    --------
+    >>> from solvers import run
+    >>> from solvers.fields import aligned_field, alternating_field, prepare
+    >>> from solvers.primitives import annulus
+    >>> from solvers.singularities import Singularity
+    >>> surface = annulus(n=36)
+    >>> three = Singularity(surface.closest_point([0.8, 0.0, 0.0]), 3)
+    >>> five = Singularity(surface.closest_point([0.5, 0.3, 0.0]), 5)
+    >>> aligned = aligned_field(prepare(surface, [three, five], refine=0))
+    >>> energies = run(alternating_field(aligned, weight=1e-3)).convergence.energies
+    >>> all(after <= before for before, after in zip(energies, energies[1:]))
+    True
     """
     end = yield from _shown(aligned, "alternating", alternate(aligned, weight))
     convergence = Convergence(end.history, end.converged)

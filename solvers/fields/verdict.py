@@ -36,6 +36,13 @@ class Verdict:
         Why, in a sentence.
     remedies : tuple of Remedy
         What may be done about it.
+
+    Examples
+    --------
+    >>> from solvers.fields import Verdict
+    >>> verdict = Verdict("suspect", "1 triangle is turned over in the integrated map.")
+    >>> print(verdict)
+    1 triangle is turned over in the integrated map.
     """
 
     status: Literal["valid", "suspect", "impossible", "unknown"]
@@ -68,6 +75,25 @@ def judge(
     Returns
     -------
     Verdict
+        With the first reason found not to trust the field.
+
+    Notes
+    -----
+    That a torus with one valence 3 and one valence 5 has no quads: Izmestiev et al. 2013.
+
+    Examples
+    --------
+    >>> from solvers.fields import IsotropicSolver, judge
+    >>> from solvers.primitives import torus
+    >>> from solvers.singularities import Singularity
+    >>> surface = torus(n=24)
+    >>> solver = IsotropicSolver(surface)
+    >>> judge(solver.solve([]), flips=None).status  # aligned with itself all around
+    'valid'
+    >>> places = [surface.closest_point([x, 0.0, 0.0]) for x in (1.4, -0.6)]
+    >>> pair = [Singularity(place, valence) for place, valence in zip(places, (3, 5))]
+    >>> judge(solver.solve(pair), flips=None).status
+    'impossible'
     """
     indices = sorted(s.index for s in field.singularities)
     surface = field.surface

@@ -1,1 +1,8 @@
 """Seamless maps: a field integrated to images of edges, consistent up to quarter turns."""
+
+from __future__ import annotations
+
+from solvers.maps.closed_images import SeamlessMap
+from solvers.maps.seamless import seamless_map
+
+__all__ = ["SeamlessMap", "seamless_map"]

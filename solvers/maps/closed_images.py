@@ -30,6 +30,20 @@ class SeamlessMap:
         Image of each halfedge in the frame of its triangle's cross: along u, along v.
     distance : float
         How far they are from what the field asks for, relative, in the weighted norm.
+
+    Examples
+    --------
+    Of a flat square of area 1; triangle 0 has its first two sides along x and y:
+
+    >>> from solvers.fields import IntegratedField, aligned_field, prepare
+    >>> from solvers.maps import seamless_map
+    >>> from solvers.primitives import square
+    >>> aligned = aligned_field(prepare(square(n=4)))
+    >>> map_ = seamless_map(IntegratedField(aligned, aligned.start))
+    >>> map_.images[0].round(9).tolist()
+    [[0.25, 0.0], [0.0, 0.25], [-0.25, -0.25]]
+    >>> map_.flipped.tolist()
+    []
     """
 
     images: FloatArray
