@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from crossview.cases.model import Case
+from crossview.cases.schema import table
 from crossview.io import SUFFIXES
 from crossview.workflow.pipeline import solve_case
 from solvers.primitives import BUILTIN
@@ -26,6 +27,10 @@ def test_the_case_example_solves() -> None:
     (solution,) = run(solve_case(Case.from_json(json.loads(text))))
     assert solution.field.index_sum == solution.field.index_required
     assert [s.locked for s in solution.singularities] == [False, True]
+
+
+def test_the_keys_of_a_case_are_those_that_are_read() -> None:
+    assert f"\n\n{table()}\n\n" in README, "make keys"
 
 
 @pytest.mark.parametrize("name", BUILTIN)

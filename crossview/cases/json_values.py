@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 from solvers.errors import CrossviewError
-from solvers.surface.validation import LARGEST
 
 
 class CaseError(CrossviewError):
@@ -22,6 +21,19 @@ def nearest(word: str, known: Iterable[str]) -> str:
     names = sorted(known)
     close = difflib.get_close_matches(word, names, n=1)
     return f'did you mean "{close[0]}"?' if close else "known: " + ", ".join(names)
+
+
+def known_word(word: str, known: Iterable[str], name: str, where: str) -> str:
+    """The `word` if it is `known`.
+
+    Raises
+    ------
+    CaseError
+        It is not; the message names the nearest, or lists those that are.
+    """
+    if word not in known:
+        raise CaseError(f'unknown {name} "{word}"', where, nearest(word, known))
+    return word
 
 
 def read_json(path: Path) -> JsonField:
@@ -71,6 +83,11 @@ class JsonField:
         """File and location in one piece."""
         return f"{self.file}, {self.keys}" if self.keys else self.file
 
+    @property
+    def key(self) -> str:
+        """The last key alone."""
+        return self.keys.rpartition(".")[2]
+
     def error(self, what: str, advice: str = "") -> CaseError:
         """The error that blames this value."""
         return CaseError(what, self.where, advice)
@@ -78,7 +95,7 @@ class JsonField:
     def object(self, required: Iterable[str], optional: Iterable[str]) -> dict[str, JsonField]:
         """The members of an object that has all the `required` and only known keys."""
         if not isinstance(self.value, dict):
-            raise self.error(f"expected an object {{...}}, found {_shown(self.value)}")
+            raise self.error(f"expected an object {{...}}, found {shown(self.value)}")
         known = {*required, *optional}
         for key in self.value:
             if key not in known:
@@ -93,53 +110,12 @@ class JsonField:
         prefix = f"{self.keys}." if self.keys else ""
         return {k: JsonField(v, self.file, prefix + k) for k, v in self.value.items()}
 
-    def items(self, length: int | None = None) -> list[JsonField]:
-        """The items of a list, exactly `length` of them if given."""
-        wanted = "a list" if length is None else f"a list of {length} numbers"
-        if not isinstance(self.value, list) or (length is not None and len(self.value) != length):
-            raise self.error(f"expected {wanted}, found {_shown(self.value)}")
+    def items(self) -> list[JsonField]:
+        """The items of a list."""
         return [JsonField(v, self.file, f"{self.keys}[{i}]") for i, v in enumerate(self.value)]
 
-    def number(self) -> float:
-        """A finite number that can be computed with."""
-        if isinstance(self.value, bool) or not isinstance(self.value, int | float):
-            raise self.error(f"expected a number, found {_shown(self.value)}")
-        if not abs(self.value) < LARGEST:
-            raise self.error(
-                f"expected a finite number below {LARGEST:g}, found {_shown(self.value)}"
-            )
-        return float(self.value)
 
-    def integer(self, name: str, least: int | None = None, most: int | None = None) -> int:
-        """A whole number called `name`, between `least` and `most`."""
-        number = self.number()
-        if number != int(number):
-            raise self.error(f"{name} must be a whole number, found {_shown(self.value)}")
-        if least is not None and number < least:
-            raise self.error(f"{name} must be at least {least}, found {_shown(self.value)}")
-        if most is not None and number > most:
-            raise self.error(f"{name} must be at most {most}, found {_shown(self.value)}")
-        return int(number)
-
-    def position(self) -> tuple[float, float, float]:
-        """A point of space: three finite numbers."""
-        x, y, z = (item.number() for item in self.items(3))
-        return x, y, z
-
-    def text(self) -> str:
-        """A string that is not empty."""
-        if not isinstance(self.value, str) or not self.value.strip():
-            raise self.error(f"expected a text, found {_shown(self.value)}")
-        return self.value
-
-    def boolean(self) -> bool:
-        """True or false."""
-        if not isinstance(self.value, bool):
-            raise self.error(f"expected true or false, found {_shown(self.value)}")
-        return self.value
-
-
-def _shown(value: Any) -> str:
+def shown(value: Any) -> str:
     """The value as JSON writes it, shortened so that an error stays one line."""
     text = json.dumps(value, ensure_ascii=False)
     return text if len(text) <= 40 else text[:37] + "..."

@@ -1,15 +1,22 @@
-"""The values a case is made of."""
+"""The values a case is made of. Each field says what its key in a case file is like."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
 
-from crossview.cases.json_values import CaseError, nearest
+from crossview.cases.compounds import Either, ListOf
+from crossview.cases.json_values import known_word
+from crossview.cases.records import documented, key
+from crossview.cases.scalars import File, Flag, Number, Word
 
 METHODS = ("isotropic", "aligned", "anisotropic", "alternating")
 """The methods there are, the default first."""
+
+MOST_REFINE = 10
+"""Levels of refinement after which triangles at a singularity are a thousandth of the others."""
+
+MOST_VALENCE = 100
+"""Quads that meet in one vertex; more is a slip of the pen."""
 
 Sizes = str | tuple[float, ...] | tuple[tuple[float, float], ...]
 """A size map: its file, or a size or a pair of sizes for each vertex."""
@@ -18,88 +25,137 @@ Position = tuple[float, float, float]
 
 Polyline = tuple[Position, ...]
 
-
-@dataclass(frozen=True)
-class Builtin:
-    """A surface made by the function `name` of ``solvers.primitives.BUILTIN``."""
-
-    name: str
-    parameters: Mapping[str, Any] = field(default_factory=dict)
+POSITION = ListOf(Number(), length=3, name="points [x, y, z]")
+POLYLINES = ListOf(ListOf(POSITION, least=2, name="polylines, each of 2 or more points [x, y, z]"))
+SIZE = Number(above=0)
 
 
+@documented
 @dataclass(frozen=True)
 class PlacedSingularity:
-    """A singularity given by a point of space, to be projected to the surface."""
+    """A singularity given by a point of space."""
 
-    position: Position
-    valence: int
-    locked: bool = False
+    position: Position = field(
+        metadata=key(POSITION, "Moved to the nearest point of the surface, which may not be far.")
+    )
+    valence: int = field(
+        metadata=key(
+            Number(whole=True, least=1, most=MOST_VALENCE),
+            "Number of quads that meet there; its index is 4 - valence.",
+        )
+    )
+    locked: bool = field(default=False, metadata=key(Flag(), "Whether it is kept in place."))
 
 
+@documented
 @dataclass(frozen=True)
 class PlacedCorner:
-    """A boundary vertex given by a point of space; index = 2 - quads meeting there."""
+    """A boundary vertex, given by a point of space, where the field turns."""
 
-    position: Position
-    index: int
+    position: Position = field(metadata=key(POSITION, "Moved to the nearest boundary vertex."))
+    index: int = field(
+        metadata=key(
+            Number(whole=True, least=2 - MOST_VALENCE, most=1),
+            "2 - number of quads that meet there: 1 at 90 degrees, -1 at 270.",
+        )
+    )
 
 
+@documented
 @dataclass(frozen=True)
 class PlacedFeatures:
-    """Edges inside the surface that crosses are to follow.
+    """Edges inside the surface that crosses are to follow."""
 
-    Attributes
-    ----------
-    dihedral_degrees : float or None
-        Edges over which the surface bends by more than this are features; None: no such.
-    curves : tuple of polylines
-        Each runs along edges, the shortest way, through the vertices nearest to its points.
-    without : tuple of polylines
-        Edges, given likewise, that are none although they are sharp.
-    """
+    dihedral_degrees: float | None = field(
+        default=None,
+        metadata=key(
+            Number(above=0, most=180),
+            "Edges over which the surface bends by more than this are features.",
+        ),
+    )
+    curves: tuple[Polyline, ...] = field(
+        default=(),
+        metadata=key(
+            POLYLINES,
+            "More of them: each runs along edges, the shortest way, through the vertices nearest "
+            "to its points.",
+        ),
+    )
+    without: tuple[Polyline, ...] = field(
+        default=(),
+        metadata=key(POLYLINES, "Edges, given likewise, that are none although they are sharp."),
+    )
 
-    dihedral_degrees: float | None = None
-    curves: tuple[Polyline, ...] = ()
-    without: tuple[Polyline, ...] = ()
 
-
+@documented
 @dataclass(frozen=True)
 class Options:
-    """What may be tuned.
+    """What may be tuned."""
 
-    Attributes
-    ----------
-    tolerance_degrees : float
-        Largest holonomy defect of a configuration called valid, degrees.
-    refine : int
-        Levels of graded refinement around each singularity; 0 only inserts it as a vertex.
-    component : int, str or None
-        Of a surface in several pieces: "largest", a number (0 is the largest) or "all";
-        None refuses such a surface.
-    repair : bool
-        Also make repairs that change the surface: drop degenerate and duplicate triangles, cut
-        non-manifold edges and vertices apart.
-    turns : tuple of int, or None
-        Quarter turns that the aligned field makes over each holonomy condition besides those
-        nearest to the isotropic field; other numbers are other layouts. For all methods but the
-        isotropic.
-    proximal_weight : float
-        Weight of the proximal term of the alternating method; the paper's is 1.
-    sizes : str, tuple or None
-        Size map that the anisotropic method follows as closely as the singularities allow: a
-        .npy or .txt file, or a size or a pair of sizes for each vertex of the surface given.
-    verify : bool
-        Solve again on a once refined mesh, and judge by how much the aspect grows.
-    """
-
-    tolerance_degrees: float = 0.01
-    refine: int = 3
-    component: int | str | None = None
-    repair: bool = False
-    turns: tuple[int, ...] | None = None
-    proximal_weight: float = 1.0
-    sizes: Sizes | None = None
-    verify: bool = False
+    tolerance_degrees: float = field(
+        default=0.01,
+        metadata=key(
+            Number(above=0, most=45),
+            "Largest holonomy defect of a configuration called valid, degrees.",
+        ),
+    )
+    refine: int = field(
+        default=3,
+        metadata=key(
+            Number(whole=True, least=0, most=MOST_REFINE),
+            "Levels of graded refinement around each singularity; 0 only inserts it as a vertex.",
+        ),
+    )
+    component: int | str | None = field(
+        default=None,
+        metadata=key(
+            Either((Word({"largest": "largest", "all": "all"}), Number(whole=True, least=0))),
+            "Which one of a surface in several pieces, which is refused else; 0 is the largest.",
+        ),
+    )
+    repair: bool = field(
+        default=False,
+        metadata=key(
+            Flag(),
+            "Also drop degenerate and duplicate triangles, and cut non-manifold edges and "
+            "vertices apart.",
+        ),
+    )
+    turns: tuple[int, ...] | None = field(
+        default=None,
+        metadata=key(
+            ListOf(Number(whole=True)),
+            "Quarter turns of the aligned field over each holonomy condition besides those "
+            "nearest to the isotropic field: other layouts, for all methods but the isotropic.",
+        ),
+    )
+    proximal_weight: float = field(
+        default=1.0,
+        metadata=key(
+            Number(above=0),
+            "Weight of the proximal term of the alternating method; the paper's is 1.",
+        ),
+    )
+    sizes: Sizes | None = field(
+        default=None,
+        metadata=key(
+            Either(
+                (
+                    File((".npy", ".txt")),
+                    ListOf(ListOf(SIZE, length=2, name="pairs of numbers above 0")),
+                    ListOf(SIZE),
+                )
+            ),
+            "Size map that the anisotropic method follows as closely as the singularities allow: "
+            "one size, or two (along x and across), for each vertex of the surface given.",
+        ),
+    )
+    verify: bool = field(
+        default=False,
+        metadata=key(
+            Flag(), "Solve again on a once refined mesh, and judge by how much the aspect grows."
+        ),
+    )
 
 
 def check_method(name: str, where: str) -> str:
@@ -110,6 +166,4 @@ def check_method(name: str, where: str) -> str:
     CaseError
         It is not; the message names the nearest, or lists those that are.
     """
-    if name not in METHODS:
-        raise CaseError(f'unknown method "{name}"', where, nearest(name, METHODS))
-    return name
+    return known_word(name, METHODS, "method", where)

@@ -16,6 +16,7 @@ from crossview.cli.info import info
 from crossview.cli.make_valid import make_valid
 from crossview.cli.natural import natural
 from crossview.cli.render import gallery, render
+from crossview.cli.schema import schema
 from crossview.cli.solve import solve
 from crossview.cli.terminal import complain
 from crossview.cli.window import window
@@ -30,7 +31,7 @@ app = App(
     suppress_keyboard_interrupt=False,
 )
 app.default(window)
-for command in (info, solve, render, gallery, natural, complete, make_valid):
+for command in (info, solve, render, gallery, natural, complete, make_valid, schema):
     app.command(command)
 
 

@@ -116,7 +116,15 @@ class Problem:
                 for vertex, index in self.corners.items()
             )
         features = self.marking.placed(self.surface)
-        return Case(surface, singularities, corners, self.method, self.options, title, features)
+        return Case(
+            surface,
+            singularities,
+            corners,
+            self.method,
+            self.options,
+            title=title,
+            features=features,
+        )
 
 
 def problems_of(case: Case) -> tuple[Problem, ...]:

@@ -64,7 +64,7 @@ def two_pieces(tmp_path: Path) -> Path:
         ({"surface": {"builtin": "planar", "holes": 3}}, ["holes must be a list"]),
         (
             {"surface": "torus", "singularities": [{"position": [1, 0, 0], "valence": 0}]},
-            ["valence must be at least 1", "singularities[0].valence"],
+            ["expected a whole number from 1 to 100, found 0", "singularities[0].valence"],
         ),
         (
             {"surface": "torus", "singularities": [{"position": [1, 0, float("nan")]}]},

@@ -1,0 +1,129 @@
+"""Objects of case files: the keys that a dataclass defines, each in the metadata of its field."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import MISSING, dataclass
+from pathlib import Path
+from typing import Any, TypeVar
+
+from crossview.cases.json_values import JsonField
+from crossview.cases.shape import Shape
+
+
+@dataclass(frozen=True)
+class Key:
+    """A key of an object in a case file.
+
+    Parameters
+    ----------
+    shape : Shape
+        What its value is like.
+    doc : str
+        What it is for, in a sentence or two.
+    always : bool
+        Whether it is written also where its value is the default.
+    """
+
+    shape: Shape
+    doc: str
+    always: bool = False
+
+
+def key(shape: Shape, doc: str, *, always: bool = False) -> dict[str, Key]:
+    """Return the metadata of a dataclass field that makes it a key of case files.
+
+    Parameters
+    ----------
+    shape, doc, always
+        As of `Key`.
+    """
+    return {"key": Key(shape, doc, always)}
+
+
+def keys_of(kind: type) -> dict[str, Key]:
+    """Return the keys of a dataclass by name, in the order in which they are written."""
+    return {field.name: field.metadata["key"] for field in dataclasses.fields(kind)}
+
+
+def defaults_of(kind: type) -> dict[str, Any]:
+    """Return the default values of a dataclass by name, of the keys that have one."""
+    found = {}
+    for field in dataclasses.fields(kind):
+        if field.default is not MISSING:
+            found[field.name] = field.default
+        elif field.default_factory is not MISSING:
+            found[field.name] = field.default_factory()
+    return found
+
+
+Kind = TypeVar("Kind", bound=type)
+
+
+def documented(kind: Kind) -> Kind:
+    """Add what each key is, and what it is for, to the docstring of a dataclass."""
+    lines = [f"{name} : {key.shape.words}\n    {key.doc}" for name, key in keys_of(kind).items()]
+    kind.__doc__ = "\n".join([kind.__doc__ or "", "", "Attributes", "----------", *lines])
+    return kind
+
+
+@dataclass(frozen=True)
+class Record(Shape):
+    """An object whose keys are the fields of a dataclass.
+
+    Parameters
+    ----------
+    kind : type
+        The dataclass; its fields have `key` as metadata, and are required without a default.
+    """
+
+    kind: type
+
+    @property
+    def words(self) -> str:
+        """What it takes, with its article."""
+        return f"an object {self.many.partition(' ')[2]}"
+
+    @property
+    def many(self) -> str:
+        """What several are called."""
+        return f"objects {{{', '.join(keys_of(self.kind))}}}"
+
+    def fits(self, value: object) -> bool:
+        """Whether it is an object."""
+        return isinstance(value, dict)
+
+    def holds(self, value: object) -> bool:
+        """Whether it is of the dataclass."""
+        return isinstance(value, self.kind)
+
+    def read(self, entry: JsonField, base: Path) -> Any:
+        """Return the dataclass; keys that it does not have are told with the nearest."""
+        keys, optional = keys_of(self.kind), defaults_of(self.kind)
+        required = [name for name in keys if name not in optional]
+        members = entry.object(required, optional)
+        return self.kind(**{n: keys[n].shape.read(members[n], base) for n in members})
+
+    def write(self, value: Any, base: Path) -> dict[str, Any]:
+        """Return the object, without most keys that have their default."""
+        default = defaults_of(self.kind)
+        found = {}
+        for name, key in keys_of(self.kind).items():
+            own = getattr(value, name)
+            if key.always or name not in default or own != default[name]:
+                found[name] = key.shape.write(own, base)
+        return found
+
+    def schema(self) -> dict[str, Any]:
+        """Return the JSON Schema."""
+        default = defaults_of(self.kind)
+        properties = {}
+        for name, key in keys_of(self.kind).items():
+            properties[name] = key.shape.schema() | {"description": key.doc}
+            if name in default and key.shape.holds(default[name]):
+                properties[name]["default"] = key.shape.write(default[name], Path())
+        required = [name for name in properties if name not in default]
+        found: dict[str, Any] = {"type": "object", "properties": properties}
+        if required:
+            found["required"] = required
+        return found | {"additionalProperties": False}
