@@ -53,7 +53,7 @@ study:
 
 keys:
 	@$(MAKE) --no-print-directory $(VENV)/installed
-	$(VENV)/bin/python tools/case_table.py README.md
+	$(VENV)/bin/python -m tools.case_table README.md
 
 bench-peers:
 	@$(MAKE) --no-print-directory $(VENV)/installed-peers

@@ -1,4 +1,4 @@
-"""Write the table of case keys into the README: ``python tools/case_table.py README.md``."""
+"""Write the table of case keys into the README: ``python -m tools.case_table README.md``."""
 
 import re
 import sys
