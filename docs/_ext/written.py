@@ -11,6 +11,7 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
+from docutils import nodes
 from sphinx.application import Sphinx
 from sphinx.errors import ExtensionError
 
@@ -135,8 +136,15 @@ def plain(
             lines[number] = line.replace("|", r"\|")
 
 
+def linked(app: Sphinx, tree: nodes.document) -> None:
+    """Let pictures fill the width that they have; Sphinx links what is scaled to the whole."""
+    for image in tree.findall(nodes.image):
+        image["width"] = "100%"
+
+
 def setup(app: Sphinx) -> dict[str, bool]:
     """Write before Sphinx reads."""
     app.connect("builder-inited", write)
+    app.connect("doctree-read", linked)
     app.connect("autodoc-process-docstring", plain, priority=900)  # after napoleon
     return {"parallel_read_safe": True, "parallel_write_safe": True}
