@@ -2,6 +2,18 @@
 
 from __future__ import annotations
 
+from solvers.layouts.errors import LayoutError
+from solvers.layouts.layout import QuadLayout, quad_layout
+from solvers.layouts.patches import PatchMesh
+from solvers.layouts.separatrices import Separatrices, field_separatrices
 from solvers.layouts.tmesh import TMesh
 
-__all__ = ["TMesh"]
+__all__ = [
+    "LayoutError",
+    "PatchMesh",
+    "QuadLayout",
+    "Separatrices",
+    "TMesh",
+    "field_separatrices",
+    "quad_layout",
+]

@@ -23,16 +23,16 @@ from solvers.surface.triangulation import FloatArray
 from solvers.surface.trisurface import TriSurface
 
 SHORT = 1.5
-"""Length of traces, in diameters, while the map is joined."""
+"""Length of traces, in diameters of the map, while the map is joined. Chosen."""
 
 JOININGS = 4
-"""How often the map is fitted again so that separatrices meet the nodes they nearly meet."""
+"""How often the map is fitted again for separatrices to meet nodes they nearly meet. Chosen."""
 
 MISALIGNED = 1e-4
-"""Angle between the cross and the boundary, radians, beyond which there is no layout."""
+"""Angle between the cross and the boundary, radians, beyond which there is no layout. Chosen."""
 
 NOT_INTEGRABLE = 0.01
-"""E beyond which there is no layout."""
+"""E beyond which there is no layout. Chosen, for what aligned fields of valid places may have."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,6 +51,19 @@ class QuadLayout:
         Triangles turned over in the map.
     mended : int
         Triangles made stiffer so that they are not.
+
+    Examples
+    --------
+    A square is one patch, and its map as large as itself:
+
+    >>> from solvers import run
+    >>> from solvers.fields import IntegratedField, aligned_field, prepare
+    >>> from solvers.layouts import quad_layout
+    >>> from solvers.primitives import square
+    >>> aligned = aligned_field(prepare(square(n=4)))
+    >>> layout = run(quad_layout(IntegratedField(aligned, aligned.start)))
+    >>> layout.patches, layout.flips, round(layout.tmesh.area, 9)
+    (1, 0, 1.0)
     """
 
     integrated: IntegratedField
@@ -108,11 +121,33 @@ def quad_layout(integrated: IntegratedField) -> Generator[Progress, None, QuadLa
     Returns
     -------
     QuadLayout
+        The rectangles; the result of the computation, for `solvers.run`.
 
     Raises
     ------
     LayoutError
         The field is not aligned or not integrable, or its map has triangles turned over.
+
+    Notes
+    -----
+    A motorcycle graph (Eppstein et al. 2008) of straight lines in the seamless map.
+
+    Examples
+    --------
+    The smallest layout of a disk: four valences 3, a square in the middle and four patches around.
+
+    >>> from solvers import run
+    >>> from solvers.fields import IntegratedField, aligned_field, prepare
+    >>> from solvers.layouts import quad_layout
+    >>> from solvers.primitives import disk
+    >>> from solvers.singularities import Singularity
+    >>> surface = disk(edge_length=0.1)
+    >>> places = [[0.5, 0, 0], [0, 0.5, 0], [-0.5, 0, 0], [0, -0.5, 0]]
+    >>> threes = [Singularity(surface.closest_point(place), 3) for place in places]
+    >>> aligned = aligned_field(prepare(surface, threes))
+    >>> layout = run(quad_layout(IntegratedField(aligned, aligned.start)))
+    >>> layout.patches, layout.conforming
+    (5, True)
     """
     _require_integrable(integrated)
     yield Progress("fitting the seamless map", 0.0)

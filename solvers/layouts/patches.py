@@ -29,6 +29,18 @@ class PatchMesh:
         Counter-clockwise.
     patch : (q,) int array
         The patch each lies in.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solvers import run
+    >>> from solvers.fields import IntegratedField, aligned_field, prepare
+    >>> from solvers.layouts import quad_layout
+    >>> from solvers.primitives import square
+    >>> aligned = aligned_field(prepare(square(n=4)))
+    >>> mesh = run(quad_layout(IntegratedField(aligned, aligned.start))).patch_mesh
+    >>> len(mesh.quads), np.unique(mesh.patch).tolist()  # 16 by 16 cells in the only patch
+    (256, [0])
     """
 
     points: FloatArray

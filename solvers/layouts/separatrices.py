@@ -43,6 +43,21 @@ class Separatrices:
     ends : (n,) int array
         `SINGULARITY` (or a corner), `BOUNDARY`, `T_JUNCTION` (a limit cycle, cut at its first
         orthogonal crossing) or `OPEN`.
+
+    Examples
+    --------
+    As many leave a singularity as its valence says; here one of each four three goes outwards:
+
+    >>> from solvers.fields import IsotropicSolver
+    >>> from solvers.layouts import field_separatrices
+    >>> from solvers.primitives import disk
+    >>> from solvers.singularities import Singularity
+    >>> surface = disk(edge_length=0.1)
+    >>> places = [[0.5, 0, 0], [0, 0.5, 0], [-0.5, 0, 0], [0, -0.5, 0]]
+    >>> threes = [Singularity(surface.closest_point(place), 3) for place in places]
+    >>> curves = field_separatrices(IsotropicSolver(surface).solve(threes))
+    >>> curves.leaving, len(curves.ends), curves.limit_cycles
+    (12, 8, 0)
     """
 
     surface: TriSurface
@@ -132,8 +147,25 @@ def field_separatrices(field: CrossField, longest: float = LONGEST) -> Separatri
     ----------
     field : CrossField
         Integrable or not, aligned or not.
-    longest : float
+    longest : float, optional
         Length at which a curve is given up, in square roots of the area, in the field's own sizes.
+
+    Returns
+    -------
+    Separatrices
+        On the field's surface.
+
+    Examples
+    --------
+    From a corner of 90 degrees no curve leaves but the boundary, from one of 270 two do:
+
+    >>> from solvers.fields import IsotropicSolver
+    >>> from solvers.layouts import field_separatrices
+    >>> from solvers.primitives import l_shape, square
+    >>> field_separatrices(IsotropicSolver(square(n=4)).solve([])).leaving
+    0
+    >>> field_separatrices(IsotropicSolver(l_shape(edge_length=0.5)).solve([])).leaving
+    2
     """
     chart = Chart.of_field(field)
     nodes = singular_nodes(chart, field)

@@ -20,13 +20,13 @@ from solvers.singularities.budget import Singularity
 from solvers.surface.triangulation import FloatArray, wrap
 
 FAR = 1.5
-"""Length of the curves that are looked at, in square roots of the area in the map."""
+"""Length of the curves that are looked at, in square roots of the area in the map. Chosen."""
 
 ALIKE = np.radians(1.0)
 """Spread of directions between nodes that count as one when a turn is chosen, radians. Chosen."""
 
 SETTLED, ROUNDS = 1e-4, 5
-"""Turn, radians, after which none more is sought, and how many are at most."""
+"""Turn, radians, after which none more is sought, and how many are at most. Chosen."""
 
 
 def joining(solver: IsotropicSolver, singularities: Sequence[Singularity]) -> IsotropicSolver:

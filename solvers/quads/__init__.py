@@ -2,7 +2,17 @@
 
 from __future__ import annotations
 
-from solvers.quads.quadmesh import scaled_jacobian
+from solvers.quads.filling import fill
+from solvers.quads.quadmesh import QuadMesh, scaled_jacobian
 from solvers.quads.quantization import Quantization, quantize, quantize_to
+from solvers.quads.smoothing import smooth
 
-__all__ = ["Quantization", "quantize", "quantize_to", "scaled_jacobian"]
+__all__ = [
+    "QuadMesh",
+    "Quantization",
+    "fill",
+    "quantize",
+    "quantize_to",
+    "scaled_jacobian",
+    "smooth",
+]

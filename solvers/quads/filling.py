@@ -33,6 +33,23 @@ def fill(layout: QuadLayout, counts: IntArray) -> QuadMesh:
     -------
     QuadMesh
         Vertices as the seamless map has them, lying in the triangles of the layout's surface.
+
+    Notes
+    -----
+    Inside a rectangle places are blended between its four sides (Coons 1967).
+
+    Examples
+    --------
+    >>> from solvers import run
+    >>> from solvers.fields import IntegratedField, aligned_field, prepare
+    >>> from solvers.layouts import quad_layout
+    >>> from solvers.primitives import square
+    >>> from solvers.quads import fill, quantize
+    >>> aligned = aligned_field(prepare(square(n=4)))
+    >>> layout = run(quad_layout(IntegratedField(aligned, aligned.start)))
+    >>> mesh = fill(layout, quantize(layout.tmesh, edge_length=1 / 3).counts)
+    >>> mesh.n_quads, round(float(mesh.scaled_jacobian.min()), 9)
+    (9, 1.0)
     """
     points = _Points(layout.arrangement, np.asarray(counts, dtype=np.int64))
     grids = [_grid(points, r) for r in range(layout.patches)]

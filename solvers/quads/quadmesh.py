@@ -42,6 +42,26 @@ class QuadMesh:
         Vertices that have their place: singularities and corners.
     boundary_loop : (n,) int array
         Number of the boundary loop of the surface each vertex lies on, or -1.
+
+    Examples
+    --------
+    Irregular vertices are just the singularities imposed:
+
+    >>> from solvers import run
+    >>> from solvers.fields import IntegratedField, aligned_field, prepare
+    >>> from solvers.layouts import quad_layout
+    >>> from solvers.primitives import disk
+    >>> from solvers.singularities import Singularity
+    >>> surface = disk(edge_length=0.1)
+    >>> places = [[0.5, 0, 0], [0, 0.5, 0], [-0.5, 0, 0], [0, -0.5, 0]]
+    >>> threes = [Singularity(surface.closest_point(place), 3) for place in places]
+    >>> aligned = aligned_field(prepare(surface, threes))
+    >>> layout = run(quad_layout(IntegratedField(aligned, aligned.start)))
+    >>> from solvers.quads import fill, quantize_to
+    >>> mesh = fill(layout, quantize_to(layout.tmesh, 80).counts)
+    >>> mesh.check()  # the quads tile the surface
+    >>> mesh.irregular, mesh.corners, mesh.euler_characteristic
+    ({3: 4}, {}, 1)
     """
 
     surface: TriSurface

@@ -70,9 +70,34 @@ def smooth(
     rounds : int, optional
         How often all vertices move.
 
+    Returns
+    -------
+    QuadMesh
+        The same quads, other places.
+
     Notes
     -----
     The local step is shape matching (Bouaziz et al. 2012, "Shape-Up").
+
+    Examples
+    --------
+    A vertex that was moved off its place in a regular grid goes back:
+
+    >>> from dataclasses import replace
+    >>> from solvers import run
+    >>> from solvers.fields import IntegratedField, aligned_field, prepare
+    >>> from solvers.layouts import quad_layout
+    >>> from solvers.primitives import square
+    >>> from solvers.quads import fill, quantize, smooth
+    >>> aligned = aligned_field(prepare(square(n=4)))
+    >>> layout = run(quad_layout(IntegratedField(aligned, aligned.start)))
+    >>> grid = fill(layout, quantize(layout.tmesh, edge_length=1 / 3).counts)
+    >>> vertices = grid.vertices.copy()
+    >>> vertices[grid.boundary_loop < 0] += [0.05, 0.02, 0.0]
+    >>> moved = replace(grid, vertices=vertices)
+    >>> smoothed = smooth(moved)
+    >>> bool(moved.scaled_jacobian.min() < 0.99 < smoothed.scaled_jacobian.min())
+    True
     """
     rails = boundary_rails(mesh.surface)
     rail, held = mesh.boundary_loop.copy(), mesh.fixed.copy()
