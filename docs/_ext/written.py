@@ -48,8 +48,13 @@ def draw(folder: Path) -> None:
         pictures.mkdir(exist_ok=True)
         run_examples(folder.parent / page, pictures)
     for layer in ("H", "theta", "cut"):
-        drawn = ("--layers", f"surface,{layer},singularities,legend,axes")
-        run("render", "closed-H", *drawn, "-o", str(folder / f"closed-H-{layer}.png"))
+        layers = f"surface,{layer},singularities,legend,axes"
+        target = folder / f"closed-H-{layer}.png"
+        run("render", "closed-H", "-o", str(target), "--layers", layers)
+    for name in ("suboptimal-a", "suboptimal-b", "suboptimal-c"):
+        layers = "H,separatrices,marks,singularities,boundary,legend"
+        target = folder / f"{name}.png"
+        run("render", name, "-o", str(target), "--layers", layers, "--size", "1600x720")
     run("gallery", "-o", str(folder / "gallery"))
 
 
