@@ -1,4 +1,4 @@
-"""What CONTRIBUTING.md says of the tree is so."""
+"""What CONTRIBUTING.md and the file for public hosting say of the tree is so."""
 
 import re
 import tomllib
@@ -9,7 +9,9 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 TEXT = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+HOSTING = (ROOT / ".github/workflows/ci.yml").read_text(encoding="utf-8")
 PATH = r"`((?:crossview|solvers|tests|docs|resources)/(?!.*ROOM)[\w/.]+)`"
+TESTED = r"tests/[\w/.]+"
 
 
 def floors(name: str) -> list[str]:
@@ -32,6 +34,6 @@ def test_each_room_is_told_of() -> None:
             assert f"| `{room.parent.name}`" in TEXT or f", `{room.parent.name}` |" in TEXT
 
 
-@pytest.mark.parametrize("path", sorted(set(re.findall(PATH, TEXT))))
+@pytest.mark.parametrize("path", sorted({*re.findall(PATH, TEXT), *re.findall(TESTED, HOSTING)}))
 def test_the_files_named_are_there(path: str) -> None:
     assert (ROOT / path).exists()
