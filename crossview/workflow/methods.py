@@ -9,13 +9,12 @@ import numpy as np
 from crossview.cases.model import CaseError, Options
 from crossview.workflow.sizes import refined_sizes
 from solvers.fields.aligned import AlignedField, IntegratedField, aligned_field
-from solvers.fields.connection import QUARTER
 from solvers.fields.integrable import alternating_field, anisotropic_field
 from solvers.fields.prepared import PreparedSurface
 from solvers.fields.verdict import INTEGRABLE
 from solvers.maps.seamless import seamless_map
 from solvers.progress import Progress, relayed
-from solvers.surface.triangulation import FloatArray
+from solvers.surface.triangulation import QUARTER, FloatArray
 
 Integration = Generator[Progress, None, IntegratedField]
 

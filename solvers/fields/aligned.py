@@ -15,13 +15,12 @@ from functools import cached_property
 import numpy as np
 
 from solvers.errors import CrossviewError
-from solvers.fields.connection import QUARTER
 from solvers.fields.crossfield import Convergence, CrossField
 from solvers.fields.feature_alignment import align_with_features
 from solvers.fields.integrability import Integrability
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.fields.prepared import PreparedSurface
-from solvers.surface.triangulation import FloatArray, IntArray
+from solvers.surface.triangulation import QUARTER, FloatArray, IntArray
 
 FORCED = np.radians(60)
 """By how much the corners of quads may miss the angle they fill on a feature, radians. Chosen."""

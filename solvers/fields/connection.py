@@ -13,11 +13,14 @@ from solvers.features.edges import Features, no_features
 from solvers.surface.delaunay import DelaunayTriangulation, Located
 from solvers.surface.homology import DualTree, handle_loops
 from solvers.surface.points import SurfacePoint
-from solvers.surface.triangulation import FloatArray, IntArray, IntrinsicTriangulation, wrap
+from solvers.surface.triangulation import (
+    QUARTER,
+    FloatArray,
+    IntArray,
+    IntrinsicTriangulation,
+    wrap,
+)
 from solvers.surface.trisurface import TriSurface
-
-QUARTER = np.pi / 2
-"""A quarter turn, radians."""
 
 CLEARANCE = 1e-6
 """Least barycentric weight of a point in a triangle, for no part of a split to be without area.

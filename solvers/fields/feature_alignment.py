@@ -17,9 +17,9 @@ from scipy.sparse import csc_array
 
 from solvers.algebra.factorization import factorized
 from solvers.algebra.operators import corner_midpoint_offsets, crouzeix_raviart
-from solvers.fields.connection import QUARTER, Discretization
+from solvers.fields.connection import Discretization
 from solvers.fields.holonomy import Holonomy
-from solvers.surface.triangulation import FloatArray, IntArray, wrap
+from solvers.surface.triangulation import QUARTER, FloatArray, IntArray, wrap
 
 RIDGE = 1e-9
 """Added to the energy, relative: turning all of a closed surface's crosses costs nothing.

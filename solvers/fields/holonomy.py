@@ -12,10 +12,10 @@ from functools import cached_property
 import numpy as np
 
 from solvers.algebra.factorization import Factorization
-from solvers.fields.connection import QUARTER, Condition, Discretization
+from solvers.fields.connection import Condition, Discretization
 from solvers.singularities.budget import Singularity
 from solvers.surface.points import SurfacePoint
-from solvers.surface.triangulation import FloatArray, IntArray, next_halfedge, wrap
+from solvers.surface.triangulation import QUARTER, FloatArray, IntArray, next_halfedge, wrap
 
 
 class Holonomy:

@@ -23,8 +23,8 @@ from scipy.sparse.csgraph import connected_components
 
 from solvers.algebra.assembly import ElementAssembly
 from solvers.algebra.operators import corner_midpoint_offsets
-from solvers.fields.connection import QUARTER, Discretization
-from solvers.surface.triangulation import BoolArray, FloatArray, IntArray, next_halfedge
+from solvers.fields.connection import Discretization
+from solvers.surface.triangulation import QUARTER, BoolArray, FloatArray, IntArray, next_halfedge
 
 Pair = tuple[FloatArray, FloatArray]
 

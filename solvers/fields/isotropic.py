@@ -17,13 +17,13 @@ from solvers.algebra.factorization import factorized
 from solvers.algebra.operators import lumped_mass, midpoint_offsets, stiffness
 from solvers.errors import CrossviewError, SingularityError
 from solvers.features.edges import Features
-from solvers.fields.connection import CLEARANCE, QUARTER, Discretization
+from solvers.fields.connection import CLEARANCE, Discretization
 from solvers.fields.crossfield import Convergence, CrossField
 from solvers.fields.embedded import split_offsets
 from solvers.fields.holonomy import Holonomy
 from solvers.singularities.budget import Singularity, default_corners, require_budget
 from solvers.surface.cut_graph import cut_graph
-from solvers.surface.triangulation import FloatArray, IntArray
+from solvers.surface.triangulation import QUARTER, FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface
 
 

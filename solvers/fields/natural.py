@@ -26,13 +26,12 @@ from scipy.sparse import coo_array, csc_array, diags_array
 from solvers.algebra.factorization import factorized
 from solvers.errors import CrossviewError
 from solvers.features.edges import Features, no_features
-from solvers.fields.connection import QUARTER
 from solvers.fields.crossfield import Convergence, CrossField
 from solvers.fields.principal import principal_crosses
 from solvers.progress import Progress
 from solvers.singularities.budget import Singularity, default_corners
 from solvers.surface.points import SurfacePoint
-from solvers.surface.triangulation import FloatArray, IntArray, next_halfedge, wrap
+from solvers.surface.triangulation import QUARTER, FloatArray, IntArray, next_halfedge, wrap
 from solvers.surface.trisurface import TriSurface
 
 ComplexArray = npt.NDArray[np.complex128]

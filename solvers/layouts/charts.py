@@ -11,12 +11,14 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 
 from solvers.fields.crossfield import CrossField
-from solvers.surface.triangulation import IntArray, IntrinsicTriangulation, previous_halfedge
+from solvers.surface.triangulation import (
+    QUARTER,
+    IntArray,
+    IntrinsicTriangulation,
+    previous_halfedge,
+)
 
 ComplexArray = npt.NDArray[np.complex128]
-
-QUARTER = np.pi / 2
-"""A quarter turn, radians."""
 
 AXES = np.array([1, 1j, -1, -1j])
 """The directions of the cross in a chart, as complex numbers, in quarter turns from the first."""

@@ -9,8 +9,8 @@ import numpy as np
 
 from solvers.features.edges import Features
 from solvers.fields.crossfield import CrossField
-from solvers.layouts.charts import QUARTER, Chart
-from solvers.surface.triangulation import FloatArray, IntArray, previous_halfedge
+from solvers.layouts.charts import Chart
+from solvers.surface.triangulation import QUARTER, FloatArray, IntArray, previous_halfedge
 
 
 @dataclass(frozen=True, eq=False)

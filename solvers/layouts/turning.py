@@ -12,12 +12,12 @@ from solvers.fields.aligned import AlignedField, aligned_field
 from solvers.fields.crossfield import CrossField
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.fields.prepared import PreparedSurface
-from solvers.layouts.charts import QUARTER, Chart
+from solvers.layouts.charts import Chart
 from solvers.layouts.crossings import Crossings, crossings
 from solvers.layouts.nodes import singular_nodes, starts_at
 from solvers.layouts.tracing import Traces, trace
 from solvers.singularities.budget import Singularity
-from solvers.surface.triangulation import FloatArray, wrap
+from solvers.surface.triangulation import QUARTER, FloatArray, wrap
 
 FAR = 1.5
 """Length of the curves that are looked at, in square roots of the area in the map. Chosen."""

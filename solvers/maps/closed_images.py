@@ -14,7 +14,7 @@ from scipy.sparse import coo_array, csc_array, diags_array, vstack
 
 from solvers.algebra.factorization import Analysis
 from solvers.fields.integrability import Integrability
-from solvers.surface.triangulation import FloatArray, IntArray
+from solvers.surface.triangulation import QUARTER, FloatArray, IntArray
 
 PASSES, ROUNDING = 3, 1e-14
 """Most solves that close images, and the gap, in parts of them, that is left for rounding."""
@@ -201,7 +201,7 @@ def _free(integrability: Integrability, edges: IntArray) -> np.ndarray:
     border = i.aligned_edges
     h = edges[border]
     angle = t.directions[h] - (i.theta[:, None] + i.offsets).reshape(-1)[h]
-    along_v = np.rint(angle / (np.pi / 2)).astype(int) % 2
+    along_v = np.rint(angle / QUARTER).astype(int) % 2
     free[border, 0] = along_v == 0
     free[border, 1] = along_v == 1
     return free

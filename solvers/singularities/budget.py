@@ -11,6 +11,7 @@ from solvers.errors import SingularityError
 from solvers.remedies import Remedy, in_words
 from solvers.singularities.remedies import AddMissing, ChangeOne, RemoveOne
 from solvers.surface.points import SurfacePoint
+from solvers.surface.triangulation import QUARTER
 from solvers.surface.trisurface import TriSurface
 
 TIE = 1e-3
@@ -81,7 +82,7 @@ def default_corners(surface: TriSurface) -> dict[int, int]:
     {0: 1, 2: 1, 6: 1, 8: 1}
     """
     vertices = np.flatnonzero(surface.boundary_vertices)
-    turn = surface.angle_defects[vertices] / (np.pi / 2)
+    turn = surface.angle_defects[vertices] / QUARTER
     size = np.ceil(np.abs(turn) - 0.5 - TIE)
     index = np.minimum((np.sign(turn) * size).astype(int), 1)
     turning = index != 0

@@ -16,6 +16,9 @@ IntArray = npt.NDArray[np.int64]
 FloatArray = npt.NDArray[np.float64]
 BoolArray = npt.NDArray[np.bool_]
 
+QUARTER = np.pi / 2
+"""A quarter turn, radians: turned by it a cross is the same."""
+
 
 def next_halfedge(h: IntArray) -> IntArray:
     """Return the halfedge after `h` in its face."""

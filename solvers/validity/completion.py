@@ -15,11 +15,10 @@ from scipy.spatial import cKDTree
 
 from solvers.algebra.operators import lumped_mass
 from solvers.errors import SingularityError
-from solvers.fields.connection import QUARTER
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.progress import Progress
 from solvers.singularities.budget import Singularity, index_budget
-from solvers.surface.triangulation import BoolArray, FloatArray
+from solvers.surface.triangulation import QUARTER, BoolArray, FloatArray
 
 SWEEPS = 2
 """How often each is taken away and placed again, knowing all the others. Chosen."""

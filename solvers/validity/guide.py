@@ -12,12 +12,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from solvers.fields.connection import QUARTER
 from solvers.fields.holonomy import Holonomy
 from solvers.singularities.budget import Singularity
 from solvers.surface.geodesics import straightest
 from solvers.surface.points import SurfacePoint
-from solvers.surface.triangulation import FloatArray, IntArray
+from solvers.surface.triangulation import QUARTER, FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface
 
 EXACT = 1e-12

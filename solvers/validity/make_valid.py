@@ -22,7 +22,7 @@ from solvers.remedies import ANISOTROPIC, Remedy
 from solvers.singularities.budget import Singularity, require_budget
 from solvers.singularities.pairs import pair_at
 from solvers.singularities.placing import far_points
-from solvers.surface.triangulation import FloatArray
+from solvers.surface.triangulation import QUARTER, FloatArray
 from solvers.surface.trisurface import TriSurface
 from solvers.validity.search import TOLERANCE, Blocked, Moved, Obstacle, Search
 
@@ -278,7 +278,7 @@ def _near(defects: FloatArray) -> list[tuple[int, ...]]:
 
 
 def _sorted(defects: FloatArray, aims: Iterator[tuple[int, ...]]) -> list[tuple[int, ...]]:
-    quarters = defects / (np.pi / 2)
+    quarters = defects / QUARTER
     return sorted(aims, key=lambda turns: float(np.linalg.norm(quarters - turns)))
 
 

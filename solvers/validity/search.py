@@ -8,7 +8,6 @@ from enum import Enum
 
 import numpy as np
 
-from solvers.fields.connection import QUARTER
 from solvers.fields.holonomy import Holonomy
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.progress import Progress
@@ -17,7 +16,7 @@ from solvers.singularities.spacing import Spacing
 from solvers.surface.geodesics import straightest
 from solvers.surface.points import SurfacePoint
 from solvers.surface.refinement import Refinement, refine_at
-from solvers.surface.triangulation import FloatArray, wrap
+from solvers.surface.triangulation import QUARTER, FloatArray, wrap
 from solvers.surface.trisurface import TriSurface
 
 TOLERANCE = np.radians(1e-6)

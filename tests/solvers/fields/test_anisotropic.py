@@ -19,12 +19,11 @@ from solvers.primitives import BUILTIN
 from solvers.progress import run
 from solvers.singularities.budget import Singularity, default_corners
 from solvers.surface.refinement import refine_at
-from solvers.surface.triangulation import wrap
+from solvers.surface.triangulation import QUARTER, wrap
 from solvers.surface.trisurface import TriSurface
 from solvers.validity.make_valid import make_valid
 from tests.solvers.suite import SURFACES, at_vertices, random_configuration, separated
 
-QUARTER = np.pi / 2
 DISTORTED = ["annulus", "plate", "cylinder", "torus_with_hole", "double_torus", "slivers"]
 
 

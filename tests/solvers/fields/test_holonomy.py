@@ -7,10 +7,9 @@ from solvers.fields.isotropic import IsotropicSolver
 from solvers.primitives import BUILTIN
 from solvers.singularities.budget import Singularity
 from solvers.surface.points import SurfacePoint
-from solvers.surface.triangulation import wrap
+from solvers.surface.triangulation import QUARTER, wrap
 from tests.solvers.suite import SURFACES, at_vertices, random_configuration
 
-QUARTER = np.pi / 2
 WITH_CONDITIONS = [name for name in SURFACES if name not in ("sphere", "disk", "square", "l_shape")]
 
 

@@ -9,12 +9,10 @@ from solvers.fields.isotropic import IsotropicSolver
 from solvers.primitives import BUILTIN
 from solvers.singularities.budget import Singularity
 from solvers.surface.points import SurfacePoint
-from solvers.surface.triangulation import wrap
+from solvers.surface.triangulation import QUARTER, wrap
 from solvers.surface.trisurface import TriSurface
 from solvers.validity.guide import Guide, LevelLines
 from tests.solvers.suite import SURFACES, random_configuration
-
-QUARTER = np.pi / 2
 
 
 def along(lines: LevelLines, surface: TriSurface, count: int, exact: bool) -> list[SurfacePoint]:
