@@ -113,6 +113,11 @@ class Factorization:
         ----------
         right_hand_side : (n,) or (n, k) float array
             As of `solve`.
+
+        Raises
+        ------
+        SolveError
+            As of `solve`.
         """
         right = np.asarray(right_hand_side, dtype=np.float64)
         if right.size == 0:

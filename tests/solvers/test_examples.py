@@ -21,7 +21,7 @@ ROOMS = [import_module(f"solvers.{name}") for name in PACKAGES] + [solvers]
 EXPORTED: dict[int, tuple[str, Callable[..., Any]]] = {
     id(thing): (f"{room.__name__}.{name}", thing)
     for room in ROOMS
-    for name in getattr(room, "__all__", ())
+    for name in room.__all__
     if callable(thing := getattr(room, name))
 }
 """Each exported function and class once, with the shortest name to import it by."""
