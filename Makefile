@@ -1,5 +1,5 @@
 # make run    the window on a gallery case; without a display, a picture of it
-# make test   lint, types, import contracts and all tests
+# make test   lint, types, import contracts and all tests, on all cores
 # make docs   the documentation, into build/docs
 # make bench  the performance figures
 # make table  the table of docs/anisotropic.md (minutes); CROSSVIEW_DATA names a folder of surfaces
@@ -30,7 +30,7 @@ test:
 	$(VENV)/bin/ruff format --check .
 	$(VENV)/bin/mypy
 	$(VENV)/bin/lint-imports
-	$(XVFB) $(VENV)/bin/python -m pytest
+	OPENBLAS_NUM_THREADS=1 $(XVFB) $(VENV)/bin/python -m pytest -n auto
 
 docs:
 	@sh tools/system-packages.sh window "$(PYTHON)"

@@ -1,22 +1,25 @@
-"""Fixtures that every room's tests share."""
+"""What stays together where the tests run on several workers."""
 
-import os
-from collections.abc import Callable
-from pathlib import Path
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[1]
-REAL_SURFACES = Path(os.environ.get("CROSSVIEW_DATA", ROOT.parent / "shared" / "data"))
+if TYPE_CHECKING:
+    from xdist.remote import Producer
+    from xdist.scheduler import LoadScopeScheduling
+
+WINDOWS = ("tests/stories/", "tests/crossview/gui/")
 
 
-@pytest.fixture
-def real_surface() -> Callable[[str], Path]:
-    """The path of a real surface by its file name; skips the test where the folder is missing."""
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Producer) -> LoadScopeScheduling:
+    """Keep tests of one file on one worker, and all windows on one: they share the focus."""
+    from xdist.scheduler import LoadScopeScheduling
 
-    def path(name: str) -> Path:
-        if not (REAL_SURFACES / name).is_file():
-            pytest.skip(f"no real surfaces in {REAL_SURFACES} (set CROSSVIEW_DATA)")
-        return REAL_SURFACES / name
+    class OneDisplay(LoadScopeScheduling):
+        def _split_scope(self, nodeid: str) -> str:
+            return "windows" if nodeid.startswith(WINDOWS) else nodeid.partition("::")[0]
 
-    return path
+    return OneDisplay(config, log)

@@ -1,11 +1,14 @@
 """What is installed is what is there."""
 
 import json
+import re
 import subprocess
 import sys
 import tomllib
 from importlib.resources import files
 from pathlib import Path
+
+from tests.real_surfaces import DATA, KNOWN
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -55,3 +58,10 @@ def test_all_but_the_window_works_without_qt(tmp_path: Path) -> None:
     assert window.returncode == 2
     assert window.stderr.count("\n") == 1
     assert "the window needs PySide6 and pyvistaqt" in window.stderr
+
+
+def test_every_surface_of_the_tests_has_its_licence_beside_it() -> None:
+    told = (DATA / "LICENSES.txt").read_text(encoding="utf-8")
+    there = {path.name for path in DATA.iterdir()} - {"LICENSES.txt"}
+    assert there == set(re.findall(r"^(\S+)\n  source : .+\n  licence: .+$", told, re.MULTILINE))
+    assert there <= set(KNOWN)

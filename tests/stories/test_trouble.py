@@ -1,6 +1,5 @@
 """What can go wrong, and how the window helps out."""
 
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +8,7 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtWidgets import QApplication
 
 from crossview.view.colors import PROBLEM, valence_color
+from tests.real_surfaces import PATHS
 from tests.windowing import Hand
 
 BLUE, RED = valence_color(3), valence_color(5)
@@ -226,11 +226,9 @@ def test_dropped_on_the_boundary_is_told_and_undone(hand: Hand) -> None:
     assert hand.state.field is not None
 
 
-@pytest.mark.parametrize("name", ["spot_low_resolution.obj", "plate_holes.stl", "pointy.obj"])
-def test_real_surfaces_from_file_to_field(
-    hand: Hand, real_surface: Callable[[str], Path], name: str
-) -> None:
-    hand.open(str(real_surface(name)))
+@pytest.mark.parametrize("name", ["wingnut.obj", "plate_holes.stl", "pointy.obj"])
+def test_real_surfaces_from_file_to_field(hand: Hand, name: str) -> None:
+    hand.open(str(PATHS[name]))
     assert hand.state.field is None
     panel = hand.window.validity_panel
     labels = [button.text() for button in panel.buttons]

@@ -16,6 +16,7 @@ from solvers.errors import CrossviewError
 from solvers.primitives import sphere, torus
 from solvers.repair.soup import repair
 from solvers.surface.trisurface import TriSurface
+from tests.real_surfaces import PATHS, REAL, Facts
 
 
 @pytest.fixture
@@ -411,31 +412,9 @@ def test_msh_with_quads_curved_triangles_and_volumes(tmp_path: Path) -> None:
     assert repair(raw.vertices, raw.faces).surface.area == pytest.approx(1.5)
 
 
-@pytest.mark.parametrize(
-    ("name", "vertices", "faces", "genus", "loops"),
-    [
-        ("sphere.obj", 642, 1280, 0, 0),
-        ("spot_low_resolution.obj", 829, 1654, 0, 0),
-        ("torus.obj", 2304, 4608, 1, 0),
-        ("hand_lowres.obj", 810, 1602, 0, 1),
-        ("goathead.obj", 2763, 5522, 0, 0),
-        ("wingnut.obj", 3047, 6090, 0, 0),
-        ("skull_low_resolution.obj", 5154, 10312, 2, 0),
-        ("demosthenes-low-res.obj", 8394, 16719, 0, 1),
-        ("plate_holes.stl", 618, 1252, 5, 0),
-        ("pointy.obj", 399, 720, 0, 1),
-        ("gen_annulus.obj", 1369, 2556, 0, 2),
-    ],
-)
-def test_real_surfaces(
-    real_surface: Callable[[str], Path],
-    name: str,
-    vertices: int,
-    faces: int,
-    genus: int,
-    loops: int,
-) -> None:
-    raw = read_surface(real_surface(name))
+@pytest.mark.parametrize("name", REAL)
+def test_real_surfaces(name: str) -> None:
+    raw = read_surface(PATHS[name])
     surface = repair(raw.vertices, raw.faces, merge=raw.merge).surface
-    assert (surface.n_vertices, surface.n_faces) == (vertices, faces)
-    assert (surface.genus, len(surface.boundary_loops)) == (genus, loops)
+    counts = Facts(surface.n_vertices, surface.n_faces, surface.genus, len(surface.boundary_loops))
+    assert counts == REAL[name]

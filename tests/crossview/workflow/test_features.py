@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +16,7 @@ from crossview.workflow.problem import Problem
 from solvers.primitives import BUILTIN
 from solvers.progress import run
 from tests.command_line import CaseFile, Crossview
+from tests.real_surfaces import PATHS
 
 RING = tuple(
     (float(np.cos(a)), float(np.sin(a)), 0.0)
@@ -102,7 +102,8 @@ OFF = [
 def test_the_report_tells_the_misalignment_of_each_curve(
     crossview: Crossview, case_file: CaseFile, tmp_path: Path, method: str
 ) -> None:
-    path = case_file("cylinder", OFF, features={"curves": [RING]}, options={"verify": True})
+    surface = {"builtin": "cylinder", "n": 32}
+    path = case_file(surface, OFF, features={"curves": [RING]}, options={"verify": True})
     ran = crossview("solve", path, "-o", tmp_path / "out", "--method", method, "--json")
     assert ran.status == 0, ran.err
     (curve,) = ran.json["features"]
@@ -135,11 +136,10 @@ def test_valid_but_off_a_curve_is_not_valid() -> None:
 
 
 def test_sharp_edges_can_be_asked_for_on_the_command_line(
-    crossview: Crossview, real_surface: Callable[[str], Path], tmp_path: Path
+    crossview: Crossview, tmp_path: Path
 ) -> None:
-    surface = real_surface("wingnut.obj")
-    new = tmp_path / "wingnut.json"
-    ran = crossview("natural", surface, "-o", new, "--features", 40)
+    new = tmp_path / "plate.json"
+    ran = crossview("natural", PATHS["plate_holes.stl"], "-o", new, "--features", 40)
     assert ran.status == 0, ran.err
     assert json.loads(new.read_text())["features"] == {"dihedral_degrees": 40.0}
     ran = crossview("solve", new, "-o", tmp_path / "out", "--method", "anisotropic", "--json")

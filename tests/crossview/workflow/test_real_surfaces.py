@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -16,25 +15,13 @@ from crossview.workflow.problem import Problem
 from solvers.progress import run
 from solvers.singularities.placing import far_points
 from tests.command_line import Crossview
-
-# genus, boundary loops, required index sum
-REAL = {
-    "sphere.obj": (0, 0, 8),
-    "spot_low_resolution.obj": (0, 0, 8),
-    "goathead.obj": (0, 0, 8),
-    "wingnut.obj": (0, 0, 8),
-    "torus.obj": (1, 0, 0),
-    "skull_low_resolution.obj": (2, 0, -8),
-    "plate_holes.stl": (5, 0, -32),
-    "hand_lowres.obj": (0, 1, 4),
-    "demosthenes-low-res.obj": (0, 1, 4),
-    "pointy.obj": (0, 1, 4),
-    "gen_annulus.obj": (0, 2, 0),
-}
-
+from tests.real_surfaces import PATHS, REAL
 
 # closed without handles, or with one boundary, any configuration that meets its budget is valid
-ALWAYS_VALID = [name for name, (genus, loops, _) in REAL.items() if genus == 0 and loops < 2]
+ALWAYS_VALID = [
+    name for name, facts in REAL.items() if facts.genus == 0 and facts.boundary_loops < 2
+]
+OTHERS = {"gen_annulus.obj": "isotropic", "skull_low_resolution.obj": "anisotropic"}
 
 
 def far_case(path: Path, method: str = "isotropic") -> dict[str, Any]:
@@ -55,10 +42,11 @@ def far_case(path: Path, method: str = "isotropic") -> dict[str, Any]:
 
 @pytest.mark.parametrize("name", REAL)
 def test_a_real_surface_is_described_and_solved(
-    crossview: Crossview, real_surface: Callable[[str], Path], tmp_path: Path, name: str
+    crossview: Crossview, tmp_path: Path, name: str
 ) -> None:
-    genus, loops, required = REAL[name]
-    path = real_surface(name)
+    genus, loops = REAL[name].genus, REAL[name].boundary_loops
+    required = 4 * REAL[name].euler_characteristic
+    path = PATHS[name]
     found = crossview("info", path, "--json").json
     (piece,) = found["components"]
     assert found["problems"] == []
@@ -80,18 +68,16 @@ def test_a_real_surface_is_described_and_solved(
     ("name", "method"),
     [
         *((name, "isotropic") for name in ALWAYS_VALID),
-        ("gen_annulus.obj", "isotropic"),
-        ("skull_low_resolution.obj", "anisotropic"),
+        *((name, method) for name, method in OTHERS.items() if name in REAL),
     ],
 )
 def test_a_real_surface_has_quads(
     crossview: Crossview,
-    real_surface: Callable[[str], Path],
     tmp_path: Path,
     name: str,
     method: str,
 ) -> None:
-    case = far_case(real_surface(name), method)
+    case = far_case(PATHS[name], method)
     (tmp_path / "case.json").write_text(json.dumps(case))
     options = ["--quads", "--target-quads", "3000", "--json"]
     ran = crossview("solve", tmp_path / "case.json", "-o", tmp_path / "out", *options)
@@ -99,8 +85,7 @@ def test_a_real_surface_has_quads(
     quads = ran.json["quads"]
     imposed = Counter(str(s["valence"]) for s in case["singularities"])
     assert quads["irregular"] == imposed
-    genus, loops, _ = REAL[name]
-    assert quads["euler_characteristic"] == 2 - 2 * genus - loops
+    assert quads["euler_characteristic"] == REAL[name].euler_characteristic
     assert quads["inverted"] == 0
     assert quads["mean_scaled_jacobian"] > 0.9
     written = pv.read(tmp_path / "out" / "quads.vtk")

@@ -1,7 +1,6 @@
 """Feature networks, and fields that follow them."""
 
 from collections.abc import Callable, Sequence
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -26,6 +25,7 @@ from solvers.surface.edge_paths import EdgePaths
 from solvers.surface.refinement import refine_at, refine_everywhere
 from solvers.surface.triangulation import wrap
 from solvers.surface.trisurface import TriSurface
+from tests.real_surfaces import PATHS, REAL
 from tests.solvers.suite import at_vertices
 
 
@@ -279,26 +279,9 @@ def test_imposed_turns_are_kept_and_free_ones_are_chosen() -> None:
     assert misalignment(IntegratedField(forced, forced.start).field) < 1e-8
 
 
-REAL = (
-    "demosthenes-low-res.obj",
-    "gen_annulus.obj",
-    "goathead.obj",
-    "hand_lowres.obj",
-    "plate_holes.stl",
-    "pointy.obj",
-    "skull_low_resolution.obj",
-    "sphere.obj",
-    "spot_low_resolution.obj",
-    "torus.obj",
-    "wingnut.obj",
-)
-
-
 @pytest.mark.parametrize("name", REAL)
-def test_features_of_real_surfaces_keep_budget_and_closing(
-    real_surface: Callable[[str], Path], name: str
-) -> None:
-    surface = Problem.from_case(Case(str(real_surface(name)))).surface
+def test_features_of_real_surfaces_keep_budget_and_closing(name: str) -> None:
+    surface = Problem.from_case(Case(str(PATHS[name]))).surface
     features = Features(surface, sharp_edges(surface, 60))
     found = run(natural_singularities(surface, "globally-optimal", features=features))
     indices = sum(s.index for s in found) + sum(default_corners(surface).values())
@@ -311,8 +294,8 @@ def test_features_of_real_surfaces_keep_budget_and_closing(
 
 
 @pytest.mark.parametrize("name", ["plate_holes.stl", "wingnut.obj"])
-def test_cad_files_come_out_aligned(real_surface: Callable[[str], Path], name: str) -> None:
-    surface = Problem.from_case(Case(str(real_surface(name)))).surface
+def test_cad_files_come_out_aligned(name: str) -> None:
+    surface = Problem.from_case(Case(str(PATHS[name]))).surface
     features = Features(surface, sharp_edges(surface, 40))
     found = run(natural_singularities(surface, features=features))
     aligned, integrated = solved(surface, features, found)
@@ -324,10 +307,8 @@ def test_cad_files_come_out_aligned(real_surface: Callable[[str], Path], name: s
         assert len(seamless_map(integrated).flipped) == 0
 
 
-def test_pointy_has_no_edge_as_sharp_and_is_aligned_with_its_boundary(
-    real_surface: Callable[[str], Path],
-) -> None:
-    surface = Problem.from_case(Case(str(real_surface("pointy.obj")))).surface
+def test_pointy_has_no_edge_as_sharp_and_is_aligned_with_its_boundary() -> None:
+    surface = Problem.from_case(Case(str(PATHS["pointy.obj"]))).surface
     features = Features(surface, sharp_edges(surface, 40))
     assert len(features) == 0
     found = run(natural_singularities(surface, features=features))

@@ -1,7 +1,6 @@
 """Straight walks, and singularities moved to where every condition holds."""
 
-from collections.abc import Callable, Sequence
-from pathlib import Path
+from collections.abc import Sequence
 
 import numpy as np
 import pytest
@@ -20,6 +19,7 @@ from solvers.surface.points import SurfacePoint
 from solvers.surface.refinement import refine_at
 from solvers.surface.trisurface import TriSurface
 from solvers.validity.make_valid import Moved, PlaceAnew, ValidityError, make_valid
+from tests.real_surfaces import PATHS
 from tests.solvers.suite import SURFACES, at_vertices, separated
 
 
@@ -120,11 +120,9 @@ def test_handles_chosen_anew_on_the_refined_surface_lead_nowhere_else(seed: int)
     assert sum(step.stage == "verifying" for step in shown) < 12
 
 
-def test_corrections_that_go_to_and_fro_over_a_jump_find_a_way_out(
-    real_surface: Callable[[str], Path],
-) -> None:
+def test_corrections_that_go_to_and_fro_over_a_jump_find_a_way_out() -> None:
     """On vertices at symmetrical places every move changes how the surface is refined."""
-    torus = Problem.from_case(Case(str(real_surface("torus.obj")))).surface
+    torus = Problem.from_case(Case(str(PATHS["torus.obj"]))).surface
     start = [
         Singularity(p, v) for p, v in zip(run(far_points(torus, (), 4)), [3, 5, 3, 5], strict=True)
     ]
