@@ -15,7 +15,7 @@ from solvers.fields.prepared import PreparedSurface
 from solvers.layouts.charts import Chart
 from solvers.layouts.crossings import Crossings, crossings
 from solvers.layouts.nodes import singular_nodes, starts_at
-from solvers.layouts.tracing import Traces, trace
+from solvers.layouts.tracing import Chords, Traces, trace
 from solvers.singularities.budget import Singularity
 from solvers.surface.triangulation import QUARTER, FloatArray, wrap
 
@@ -86,7 +86,22 @@ def _turn(field: CrossField) -> float:
     nodes = singular_nodes(chart, field)
     far = FAR * float(chart.area) ** 0.5
     traces = trace(chart, nodes, starts_at(chart, nodes), 0.0, far)
+    traces = replace(traces, chords=_before_winding(traces.chords))
     return _best_turn(traces, crossings(chart, traces.chords))
+
+
+def _before_winding(chords: Chords) -> Chords:
+    """Return the chords of each trace up to where it comes to a triangle for the third time.
+
+    Where H is large a curve may go round and round a few triangles, and cross others, and itself,
+    millions of times.
+    """
+    order = np.lexsort((chords.start, chords.face, chords.trace))
+    trace, face = chords.trace[order], chords.face[order]
+    third = order[2:][(trace[2:] == trace[:-2]) & (face[2:] == face[:-2])]
+    until = np.full(chords.trace.max(initial=-1) + 1, np.inf)
+    np.minimum.at(until, chords.trace[third], chords.start[third])
+    return chords[chords.start < until[chords.trace]]
 
 
 def _chart(field: CrossField) -> Chart:
