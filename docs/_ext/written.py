@@ -9,6 +9,7 @@ import json
 import pkgutil
 import re
 from collections.abc import Iterable
+from importlib import import_module
 from pathlib import Path
 
 from docutils import nodes
@@ -90,15 +91,19 @@ def commands() -> str:
 
 
 def rooms() -> tuple[str, ...]:
-    """The packages of `solvers`, as a reader meets them."""
-    return tuple(
-        f"solvers.{room.name}" for room in pkgutil.iter_modules(solvers.__path__) if room.ispkg
-    )
+    """`solvers` and its packages, as a reader meets them."""
+    packages = (room.name for room in pkgutil.iter_modules(solvers.__path__) if room.ispkg)
+    return ("solvers", *(f"solvers.{name}" for name in packages))
 
 
 def interface(room: str) -> str:
-    """The page of a room: all that it exports."""
-    return f"{room}\n{'=' * len(room)}\n\n.. automodule:: {room}\n"
+    """The page of a room: all that it exports, but for what has a place in a room of its own."""
+    inner = (import_module(other) for other in rooms() if other.startswith(f"{room}."))
+    placed = {name for package in inner for name in package.__all__}
+    page = f"{room}\n{'=' * len(room)}\n\n.. automodule:: {room}\n"
+    if again := sorted(placed.intersection(import_module(room).__all__)):
+        page += f"   :exclude-members: {', '.join(again)}\n"
+    return page
 
 
 def numbers(folder: Path) -> str:
