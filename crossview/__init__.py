@@ -1,5 +1,69 @@
-"""Impose singularities on a surface, solve its boundary-aligned cross-field, and see it live."""
+"""Impose singularities on a surface, solve its boundary-aligned cross-field, and see it live.
+
+The same verbs as on the command line and in the window, from a file to a quad mesh::
+
+    import crossview
+
+    problem = crossview.make_valid(crossview.natural(crossview.read("part.obj")))
+    solution = crossview.solve(problem)
+    layout = crossview.layout(solution)
+    mesh = crossview.quads(layout, 2000)
+    crossview.write_mesh(mesh, "quads.msh")
+    crossview.render(solution, "figure.pdf", layout=layout, quads=mesh)
+
+The numerics below them are `solvers`; Qt and VTK are loaded when they are wanted.
+"""
+
+from __future__ import annotations
 
 from importlib.metadata import version
 
+from crossview.cases.model import Case
+from crossview.library import (
+    complete,
+    layout,
+    make_valid,
+    natural,
+    quads,
+    read,
+    read_surface,
+    render,
+    report,
+    solve,
+    write_case,
+    write_mesh,
+    write_solution,
+)
+from crossview.workflow.problem import Problem
+from crossview.workflow.solution import Solution
+from solvers import CrossviewError, Singularity, SurfacePoint, TriSurface, primitives
+from solvers.layouts import QuadLayout
+from solvers.quads import QuadMesh
+
 __version__ = version("crossview")
+
+__all__ = [
+    "Case",
+    "CrossviewError",
+    "Problem",
+    "QuadLayout",
+    "QuadMesh",
+    "Singularity",
+    "Solution",
+    "SurfacePoint",
+    "TriSurface",
+    "complete",
+    "layout",
+    "make_valid",
+    "natural",
+    "primitives",
+    "quads",
+    "read",
+    "read_surface",
+    "render",
+    "report",
+    "solve",
+    "write_case",
+    "write_mesh",
+    "write_solution",
+]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -43,7 +43,16 @@ __all__ = [
 @documented
 @dataclass(frozen=True)
 class Case:
-    """A surface with imposed singularities, and how to solve it."""
+    """A surface with imposed singularities, and how to solve it.
+
+    Examples
+    --------
+    >>> from crossview import Case
+    >>> corner = {"position": [0.4, 0, 0], "valence": 3}
+    >>> case = Case.from_json({"surface": "disk", "singularities": [corner]})
+    >>> case.method, case.singularities[0].valence
+    ('isotropic', 3)
+    """
 
     title: str = field(
         default="", kw_only=True, metadata=key(Text(), "One line on what the case shows.")
@@ -83,9 +92,72 @@ class Case:
         metadata=key(Record(Options), "What may be tuned.", always=True),
     )
 
+    def with_choices(
+        self,
+        *,
+        method: str | None = None,
+        features: float | None = None,
+        component: int | str | None = None,
+        repair: bool = False,
+    ) -> Case:
+        """The same case but for what is chosen on a command line or in a script.
+
+        Parameters
+        ----------
+        method : str, optional
+            One of `METHODS`.
+        features : float, optional
+            Edges over which the surface bends by more degrees are features, as are the curves.
+        component : int or str, optional
+            Of a surface in several pieces: "largest", a number (0 is the largest) or "all".
+        repair : bool, optional
+            Whether to repair even if the case does not ask for it.
+
+        Returns
+        -------
+        Case
+            Another one.
+
+        Raises
+        ------
+        CaseError
+            There is no such method or component, or no such angle.
+        """
+        if features is not None and not 0 < features <= 180:
+            raise CaseError(
+                f"features cannot be sharper than {features:g} degrees",
+                "features",
+                "an angle above 0 and at most 180",
+            )
+        if isinstance(component, str) and component not in ("largest", "all"):
+            raise CaseError(
+                f'unknown component "{component}"',
+                "component",
+                "largest, all or a number (0 is the largest)",
+            )
+        options, marked = self.options, self.features
+        chosen = options.component if component is None else component
+        angle = marked.dihedral_degrees if features is None else features
+        return replace(
+            self,
+            method=self.method if method is None else check_method(method, "method"),
+            options=replace(options, component=chosen, repair=options.repair or repair),
+            features=replace(marked, dihedral_degrees=angle),
+        )
+
     @classmethod
     def load(cls, path: str | Path) -> Case:
         """Read a case file.
+
+        Parameters
+        ----------
+        path : path-like
+            Paths in it are relative to its folder.
+
+        Returns
+        -------
+        Case
+            What it says.
 
         Raises
         ------
@@ -97,7 +169,25 @@ class Case:
 
     @classmethod
     def from_json(cls, data: Mapping[str, Any], base: str | Path = ".") -> Case:
-        """The case that the parsed JSON `data` describes, its paths relative to `base`."""
+        """Return the case that parsed JSON describes.
+
+        Parameters
+        ----------
+        data : mapping
+            As the text of a case file is parsed.
+        base : path-like, optional
+            The folder that its paths are relative to.
+
+        Returns
+        -------
+        Case
+            What it says.
+
+        Raises
+        ------
+        CaseError
+            A value is wrong; one line with its location.
+        """
         return cls._read(JsonField(data, "case"), Path(base))
 
     @classmethod
@@ -106,11 +196,22 @@ class Case:
         return case
 
     def to_json(self, base: str | Path = ".") -> dict[str, Any]:
-        """As JSON values; a surface file is named relative to the folder `base`."""
+        """Return it as JSON values.
+
+        Parameters
+        ----------
+        base : path-like, optional
+            The folder that a surface file is named relative to.
+        """
         return Record(Case).write(self, Path(base))
 
     def save(self, path: str | Path) -> None:
         """Write the case file whole or not at all.
+
+        Parameters
+        ----------
+        path : path-like
+            The file; a surface is named relative to its folder.
 
         Raises
         ------

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import MISSING, dataclass
+from inspect import cleandoc
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -61,9 +62,13 @@ Kind = TypeVar("Kind", bound=type)
 
 
 def documented(kind: Kind) -> Kind:
-    """Add what each key is, and what it is for, to the docstring of a dataclass."""
-    lines = [f"{name} : {key.shape.words}\n    {key.doc}" for name, key in keys_of(kind).items()]
-    kind.__doc__ = "\n".join([kind.__doc__ or "", "", "Attributes", "----------", *lines])
+    """Put what each key is, and what it is for, into the docstring of a dataclass."""
+    by_call = sorted(dataclasses.fields(kind), key=lambda field: field.kw_only is True)
+    keys = [(field.name, field.metadata["key"]) for field in by_call]
+    lines = [f"{name} : {key.shape.words}\n    {key.doc}" for name, key in keys]
+    summary, section, examples = cleandoc(kind.__doc__ or "").partition("\nExamples\n")
+    listed = "\n".join(["", "Parameters", "----------", *lines, ""])
+    kind.__doc__ = "\n".join([summary.rstrip(), listed]) + section + examples
     return kind
 
 

@@ -17,10 +17,12 @@ from crossview.cases.model import (
     PlacedCorner,
     PlacedSingularity,
     Position,
+    check_method,
 )
 from crossview.cases.parts import Polyline
 from crossview.workflow.loading import load_surfaces
 from crossview.workflow.marking import Drawing, Marking
+from solvers.errors import CrossviewError
 from solvers.features.edges import Features
 from solvers.repair.soup import Repaired
 from solvers.singularities.budget import Singularity, default_corners
@@ -35,20 +37,38 @@ REACH = 0.05
 class Problem:
     """What is to be solved.
 
-    Attributes
+    Parameters
     ----------
     surface : TriSurface
         As read and repaired, before any refinement.
-    singularities : tuple of Singularity
+    singularities : iterable of Singularity, optional
         On `surface`.
-    corners : mapping of int to int, or None
-        Boundary vertex -> index; None: chosen from the interior angles.
-    method : str
-    options : Options
-    notes : tuple of str
+    corners : mapping of int to int, optional
+        Boundary vertex -> index, quarter turns; None: chosen from the interior angles.
+    method : {"isotropic", "aligned", "anisotropic", "alternating"}, optional
+        How it is solved.
+    options : Options, optional
+        What may be tuned.
+    notes : tuple of str, optional
         What reading and repairing changed, in plain words.
-    marking : Marking
+    marking : Marking, optional
         Which edges of `surface` are features.
+    source : str or Builtin, optional
+        What `surface` was read from or made by; None: in Python.
+
+    Raises
+    ------
+    CrossviewError
+        The method is unknown, or what is given for singularities is something else.
+
+    Examples
+    --------
+    >>> from crossview import Problem, Singularity, primitives
+    >>> surface = primitives.disk(edge_length=0.1)
+    >>> places = [surface.closest_point([x, y, 0]) for x in (-0.4, 0.4) for y in (-0.4, 0.4)]
+    >>> problem = Problem(surface, [Singularity(place, 3) for place in places])
+    >>> sum(s.index for s in problem.singularities) == 4 * surface.euler_characteristic
+    True
     """
 
     surface: TriSurface
@@ -58,10 +78,32 @@ class Problem:
     options: Options = field(default_factory=Options)
     notes: tuple[str, ...] = ()
     marking: Marking = field(default_factory=Marking)
+    source: str | Builtin | None = None
+
+    def __post_init__(self) -> None:
+        check_method(self.method, "method")
+        given = tuple(self.singularities)
+        if not all(isinstance(s, Singularity) for s in given):
+            raise CrossviewError(
+                "a singularity is given as something else",
+                "singularities",
+                "give Singularity values",
+            )
+        object.__setattr__(self, "singularities", given)
 
     @classmethod
     def from_case(cls, case: Case) -> Problem:
         """Read the surface of a case and put its singularities and corners on it.
+
+        Parameters
+        ----------
+        case : Case
+            Of one component.
+
+        Returns
+        -------
+        Problem
+            With positions in space taken to the nearest points of the surface.
 
         Raises
         ------
@@ -84,7 +126,13 @@ class Problem:
         return self.marking.on(self.surface)
 
     def same_places(self, other: Problem) -> bool:
-        """Whether a surface prepared for the other problem serves this one: valences may differ."""
+        """Whether a surface prepared for the other problem serves this one: valences may differ.
+
+        Parameters
+        ----------
+        other : Problem
+            Perhaps of other valences.
+        """
         return (
             self.surface is other.surface
             and self.options.refine == other.options.refine
@@ -94,7 +142,13 @@ class Problem:
         )
 
     def same_but_method(self, other: Problem) -> bool:
-        """Whether the other problem differs from this one in its method at most."""
+        """Whether the other problem differs from this one in its method at most.
+
+        Parameters
+        ----------
+        other : Problem
+            Perhaps of another method.
+        """
         return (
             self.surface is other.surface
             and self.singularities == other.singularities
@@ -104,7 +158,15 @@ class Problem:
         )
 
     def to_case(self, surface: str | Builtin, title: str = "") -> Case:
-        """The case that describes this problem on the surface called `surface`."""
+        """Return the case that describes this problem.
+
+        Parameters
+        ----------
+        surface : str or Builtin
+            What its surface is read from.
+        title : str, optional
+            One line on what the case shows.
+        """
         singularities = tuple(
             PlacedSingularity(_triple(self.surface.position(s.point)), s.valence, s.locked)
             for s in self.singularities
@@ -168,6 +230,7 @@ def placed(case: Case, pieces: Sequence[Repaired]) -> tuple[Problem, ...]:
             case.options,
             piece.notes,
             marking,
+            case.surface,
         )
         for piece, placed, cornered, marking in zip(
             pieces, singularities, corners, markings, strict=True

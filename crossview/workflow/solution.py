@@ -26,14 +26,16 @@ from solvers.surface.trisurface import TriSurface
 class Solution:
     """A solved problem.
 
-    Attributes
+    Parameters
     ----------
     problem : Problem
+        What was solved.
     prepared : PreparedSurface
         The surface solved on: refined around the singularities, which are vertices of it.
     solver : IsotropicSolver
         Keeps the factorisation of that surface; its fields are turned as `field` is.
     field : CrossField
+        Crosses and sizes, with their own measures.
     holonomy_defects : (2 g + max(b - 1, 0),) float array
         Of the isotropic field of the same configuration, whatever the method; radians in
         (-pi/4, pi/4], in the order of ``solver.holonomy.conditions``.
@@ -42,10 +44,24 @@ class Solution:
     integrated : IntegratedField, or None
         The field with its seamless map; None for the isotropic method.
     verdict : Verdict
+        What the field is worth, and what helps.
     growth : float, or None
         Of int |grad s|^2 on a once refined mesh; None if not asked for.
     inverted : int, or None
         Triangles turned over in the seamless map; None where the field has none.
+
+    Examples
+    --------
+    A valence 3 and a valence 5 half a turn apart on an annulus: the largest defect there can be.
+
+    >>> import numpy as np
+    >>> import crossview
+    >>> surface = crossview.primitives.annulus(inner=0.4, n=48)
+    >>> places = [surface.closest_point(place) for place in ([0.8, 0, 0], [-0.6, 0, 0])]
+    >>> pair = [crossview.Singularity(place, k) for place, k in zip(places, (3, 5))]
+    >>> solution = crossview.solve(crossview.Problem(surface, pair))
+    >>> np.degrees(np.abs(solution.holonomy_defects)).round(2), solution.valid
+    (array([45.]), False)
     """
 
     problem: Problem

@@ -1,4 +1,4 @@
-"""Every public name of the numerics is documented, and what its examples say is true."""
+"""Every public name is documented, and what its examples say is true."""
 
 import doctest
 import inspect
@@ -6,6 +6,7 @@ import pkgutil
 from collections.abc import Callable
 from functools import cached_property
 from importlib import import_module
+from pathlib import Path
 from types import FunctionType
 from typing import Any
 
@@ -13,10 +14,11 @@ import pytest
 from numpydoc.docscrape import get_doc_object
 from numpydoc.validate import validate
 
+import crossview
 import solvers
 
 PACKAGES = [m.name for m in pkgutil.iter_modules(solvers.__path__) if m.ispkg]
-ROOMS = [import_module(f"solvers.{name}") for name in PACKAGES] + [solvers]
+ROOMS = [import_module(f"solvers.{name}") for name in PACKAGES] + [solvers, crossview]
 
 EXPORTED: dict[int, tuple[str, Callable[..., Any]]] = {
     id(thing): (f"{room.__name__}.{name}", thing)
@@ -38,7 +40,10 @@ each_exported = pytest.mark.parametrize(
 
 
 @each_exported
-def test_its_examples_say_what_is_true(thing: Callable[..., Any]) -> None:
+def test_its_examples_say_what_is_true(
+    thing: Callable[..., Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
     runner = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS)
     for test in doctest.DocTestFinder().find(thing, thing.__name__, globs={}):
         runner.run(test, out=lambda text: pytest.fail(text, pytrace=False))

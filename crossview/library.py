@@ -1,0 +1,535 @@
+"""The verbs of the command line and of the window as functions, for scripts.
+
+Each takes and returns values that nothing changes afterwards: `read` makes a `Problem`, `natural`,
+`complete` and `make_valid` make others of it, `solve` a `Solution`, `layout` a `QuadLayout`,
+`quads` a `QuadMesh`. What takes long calls `progress`, if it is given, with each
+`solvers.Progress`.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from crossview.cases.gallery import find_case
+from crossview.cases.model import Builtin, Case, CaseError, check_method
+from crossview.workflow import layout as layouts
+from crossview.workflow import placing
+from crossview.workflow import quads as meshes
+from crossview.workflow.pipeline import Pipeline
+from crossview.workflow.problem import Problem
+from crossview.workflow.solution import Solution
+from solvers.fields.natural import CURVATURE_WEIGHT
+from solvers.layouts.layout import QuadLayout
+from solvers.progress import Progress, run
+from solvers.quads.quadmesh import QuadMesh
+from solvers.surface.trisurface import TriSurface
+
+Watch = Callable[[Progress], object] | None
+"""What is called with each step of a long computation."""
+
+Target = str | os.PathLike[str] | Case
+"""A case, or what names one on the command line."""
+
+
+def read_surface(
+    path: str | os.PathLike[str], *, component: int | str | None = None, repair: bool = False
+) -> TriSurface:
+    r"""Return the surface in a file.
+
+    Parameters
+    ----------
+    path : path-like
+        OBJ, PLY, STL, OFF, VTK, VTP, VTU, glTF, GLB or MSH.
+    component : int or str, optional
+        Of a surface in several pieces: "largest" or a number (0 is the largest).
+    repair : bool, optional
+        Also mend what cannot be mended without changing the surface.
+
+    Returns
+    -------
+    TriSurface
+        What is in it, repaired where that loses nothing.
+
+    Raises
+    ------
+    CrossviewError
+        It cannot be read or is no surface; the offending elements are named.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> import crossview
+    >>> corners = "v 0 0 0\n v 2 0 0\n v 2 1 0\n v 0 1 0\n"
+    >>> _ = Path("rectangle.obj").write_text(corners + "f 1 2 3 4")
+    >>> crossview.read_surface("rectangle.obj").area
+    2.0
+    """
+    return read(Case(str(path)), component=component, repair=repair).surface
+
+
+def read(
+    target: Target,
+    *,
+    method: str | None = None,
+    features: float | None = None,
+    component: int | str | None = None,
+    repair: bool = False,
+) -> Problem:
+    """Return the problem that a case poses.
+
+    Parameters
+    ----------
+    target : str, path or Case
+        A case file, a surface file (a case without singularities), the name of a gallery case or
+        of a built-in surface; or a case.
+    method : {"isotropic", "aligned", "anisotropic", "alternating"}, optional
+        Instead of the case's.
+    features : float, optional
+        Edges over which the surface bends by more degrees are to be followed, as are the curves
+        that the case marks.
+    component : int or str, optional
+        Of a surface in several pieces: "largest" or a number (0 is the largest).
+    repair : bool, optional
+        Also mend what cannot be mended without changing the surface.
+
+    Returns
+    -------
+    Problem
+        Its surface read, and its singularities and corners put on it.
+
+    Raises
+    ------
+    CrossviewError
+        There is no such thing, or something in it is wrong; one line says what and where.
+
+    Examples
+    --------
+    >>> import crossview
+    >>> problem = crossview.read("disk-4")
+    >>> [s.valence for s in problem.singularities], problem.surface.euler_characteristic
+    ([3, 3, 3, 3], 1)
+    """
+    case = target if isinstance(target, Case) else find_case(os.fspath(target))
+    return Problem.from_case(
+        case.with_choices(method=method, features=features, component=component, repair=repair)
+    )
+
+
+def natural(
+    problem: Problem,
+    method: str = "mbo",
+    seed: int = 0,
+    *,
+    alignment: str = "smoothness",
+    weight: float = CURVATURE_WEIGHT,
+    progress: Watch = None,
+) -> Problem:
+    """Put the singularities of a smooth cross-field in place of a problem's.
+
+    Parameters
+    ----------
+    problem : Problem
+        Its surface and features count.
+    method : {"mbo", "ginzburg-landau", "globally-optimal"}, optional
+        How the cross-field is smoothed.
+    seed : int, optional
+        Of the random start of the first two methods.
+    alignment : {"smoothness", "curvature"}, optional
+        Whether the crosses are also drawn towards the directions of principal curvature.
+    weight : float, optional
+        How strongly.
+    progress : callable, optional
+        Called with each step.
+
+    Returns
+    -------
+    Problem
+        The same but for singularities and corners.
+
+    Raises
+    ------
+    CrossviewError
+        The method or the alignment is unknown, or the weight is negative or not finite.
+
+    Examples
+    --------
+    A sphere's smoothest cross-field has eight singularities of index 1:
+
+    >>> import crossview
+    >>> problem = crossview.natural(crossview.Problem(crossview.primitives.sphere(subdivisions=3)))
+    >>> [s.valence for s in problem.singularities]
+    [3, 3, 3, 3, 3, 3, 3, 3]
+    """
+    computation = placing.natural(problem, method, seed, alignment=alignment, weight=weight)
+    return run(computation, progress)
+
+
+def complete(problem: Problem, *, progress: Watch = None) -> Problem:
+    """Add the valences 3 or 5 that the index budget lacks, where they even out the sizes most.
+
+    Parameters
+    ----------
+    problem : Problem
+        Perhaps with some singularities already.
+    progress : callable, optional
+        Called with each step.
+
+    Returns
+    -------
+    Problem
+        The added ones come last.
+
+    Raises
+    ------
+    CrossviewError
+        There is no room for them.
+
+    Examples
+    --------
+    >>> import crossview
+    >>> surface = crossview.primitives.disk(edge_length=0.1)
+    >>> [s.valence for s in crossview.complete(crossview.Problem(surface)).singularities]
+    [3, 3, 3, 3]
+    """
+    return run(placing.complete(problem), progress)
+
+
+def make_valid(problem: Problem, *, progress: Watch = None) -> Problem:
+    """Move unlocked singularities as little as need be until every holonomy defect vanishes.
+
+    Parameters
+    ----------
+    problem : Problem
+        Whose index budget holds.
+    progress : callable, optional
+        Called with each step.
+
+    Returns
+    -------
+    Problem
+        The same with its singularities moved.
+
+    Raises
+    ------
+    SingularityError
+        They cannot be made valid; its remedies are what helps, tried before.
+
+    Examples
+    --------
+    >>> import crossview
+    >>> from crossview import Problem, Singularity
+    >>> surface = crossview.primitives.annulus(inner=0.4, n=48)
+    >>> places = [surface.closest_point(place) for place in ([0.85, 0.1, 0], [0.55, 0, 0])]
+    >>> pair = [Singularity(place, valence) for place, valence in zip(places, (3, 5))]
+    >>> crossview.solve(crossview.make_valid(Problem(surface, pair))).valid
+    True
+    """
+    return run(placing.make_valid(problem), progress)[0]
+
+
+def solve(problem: Problem, method: str | None = None, *, progress: Watch = None) -> Solution:
+    """Solve for the cross-field of a problem.
+
+    Parameters
+    ----------
+    problem : Problem
+        Whose index budget holds.
+    method : {"isotropic", "aligned", "anisotropic", "alternating"}, optional
+        Instead of the problem's.
+    progress : callable, optional
+        Called with each step.
+
+    Returns
+    -------
+    Solution
+        The field, what it was solved on, and what it is worth.
+
+    Raises
+    ------
+    CrossviewError
+        The index budget is missed, a singularity is on the boundary, two coincide, the turns are
+        too many or too few, or the size map is wrong.
+
+    Examples
+    --------
+    Four valence 3 are what the index budget of a disk asks for:
+
+    >>> import crossview
+    >>> solution = crossview.solve(crossview.read("disk-4"))
+    >>> solution.field.index_sum, solution.valid, solution.verdict.status
+    (4, True, 'valid')
+    """
+    if method is not None:
+        problem = replace(problem, method=check_method(method, "method"))
+    return run(Pipeline().solve(problem), progress)
+
+
+def layout(solution: Solution, *, progress: Watch = None) -> QuadLayout:
+    """Cut the surface of a solution into rectangles along its separatrices.
+
+    Parameters
+    ----------
+    solution : Solution
+        Aligned and integrable, as its verdict says.
+    progress : callable, optional
+        Called with each step.
+
+    Returns
+    -------
+    QuadLayout
+        The rectangles and the separatrices around them.
+
+    Raises
+    ------
+    LayoutError
+        The field misses a boundary or is not integrable, there is no quad mesh with these
+        singularities, or triangles are inverted in the map.
+
+    Examples
+    --------
+    >>> import crossview
+    >>> layout = crossview.layout(crossview.solve(crossview.read("disk-4")))
+    >>> layout.patches, layout.conforming
+    (5, True)
+    """
+    return run(layouts.layout(solution), progress)
+
+
+def quads(
+    layout: QuadLayout,
+    target_quads: int | None = None,
+    *,
+    edge_length: float | None = None,
+    collapse: bool = False,
+    smooth: bool = True,
+    progress: Watch = None,
+) -> QuadMesh:
+    """Fill a layout with quads.
+
+    Parameters
+    ----------
+    layout : QuadLayout
+        What to fill.
+    target_quads : int, optional
+        About how many; 5 000 if no edge length is given either.
+    edge_length : float, optional
+        Mean length of their edges.
+    collapse : bool, optional
+        Whether arcs of the layout may vanish, for coarse meshes of few patches.
+    smooth : bool, optional
+        Whether vertices slide along the surface to better quads.
+    progress : callable, optional
+        Called with each step.
+
+    Returns
+    -------
+    QuadMesh
+        Conforming, on the surface of the layout.
+
+    Raises
+    ------
+    CrossviewError
+        Both a number and a length are given, they do not fit the surface, a singularity has
+        valence 1, or no numbers of quads were found in time.
+
+    Examples
+    --------
+    Irregular vertices are just where singularities were imposed:
+
+    >>> import crossview
+    >>> layout = crossview.layout(crossview.solve(crossview.read("disk-4")))
+    >>> crossview.quads(layout, 300).irregular
+    {3: 4}
+    """
+    options = meshes.MeshOptions(edge_length, target_quads, collapse, smooth)
+    return run(meshes.quads(layout, options), progress)
+
+
+def write_case(
+    problem: Problem,
+    path: str | os.PathLike[str],
+    *,
+    surface: str | Builtin | None = None,
+    title: str = "",
+) -> None:
+    """Write the case file of a problem, whole or not at all.
+
+    Parameters
+    ----------
+    problem : Problem
+        What to write.
+    path : path-like
+        The new file.
+    surface : str or Builtin, optional
+        What the problem's surface is read from; by default what it was.
+    title : str, optional
+        One line on what the case shows.
+
+    Raises
+    ------
+    CrossviewError
+        The file cannot be written, or the surface was made in Python and none is named.
+
+    Examples
+    --------
+    >>> import crossview
+    >>> crossview.write_case(crossview.read("disk-4"), "mine.json")
+    >>> [s.valence for s in crossview.read("mine.json").singularities]
+    [3, 3, 3, 3]
+    """
+    source = problem.source if surface is None else surface
+    if source is None:
+        raise CaseError(
+            "a case names what its surface is read from, and this one was made in Python",
+            str(path),
+            "give surface=, a file or a built-in",
+        )
+    problem.to_case(source, title).save(Path(path))
+
+
+def write_mesh(mesh: QuadMesh, path: str | os.PathLike[str]) -> None:
+    """Write a quad mesh to a file.
+
+    Parameters
+    ----------
+    mesh : QuadMesh
+        What to write.
+    path : path-like
+        OBJ, VTK, VTU, PLY, glTF, GLB or MSH (Gmsh, with named boundaries).
+
+    Raises
+    ------
+    CrossviewError
+        The format is unknown or the file cannot be written.
+
+    Examples
+    --------
+    >>> import crossview
+    >>> layout = crossview.layout(crossview.solve(crossview.read("disk-4")))
+    >>> crossview.write_mesh(crossview.quads(layout, 300), "quads.obj")
+    """
+    from crossview.export.meshes import write_mesh as write  # VTK is loaded when it is wanted
+
+    write(mesh, Path(path))
+
+
+def write_solution(
+    solution: Solution,
+    directory: str | os.PathLike[str],
+    *,
+    layout: QuadLayout | None = None,
+    quads: QuadMesh | None = None,
+    formats: Sequence[str] = ("vtk", "obj"),
+) -> None:
+    """Write report.json and the fields and curves of a solution as .vtp files for ParaView.
+
+    Parameters
+    ----------
+    solution : Solution
+        What to write.
+    directory : path-like
+        Made if it is not there; all files are written, or none.
+    layout : QuadLayout, optional
+        Of the solution: also layout.vtp, and separatrices that are exact.
+    quads : QuadMesh, optional
+        Of the layout: also the quads.
+    formats : sequence of str, optional
+        Those of `write_mesh` for the quads.
+
+    Raises
+    ------
+    CrossviewError
+        The folder cannot be made or written.
+
+    Examples
+    --------
+    >>> import json, pathlib
+    >>> import crossview
+    >>> crossview.write_solution(crossview.solve(crossview.read("disk-4")), "out")
+    >>> json.loads(pathlib.Path("out/report.json").read_text())["index_sum"]
+    4
+    """
+    from crossview.export.report import write_solution as write  # VTK is loaded when it is wanted
+
+    write(solution, Path(directory), layout, quads, formats)
+
+
+def report(
+    solution: Solution, layout: QuadLayout | None = None, quads: QuadMesh | None = None
+) -> dict[str, Any]:
+    """Return what is known of a solution as JSON values, as report.json has it.
+
+    Parameters
+    ----------
+    solution : Solution
+        What to tell of.
+    layout : QuadLayout, optional
+        Of the solution.
+    quads : QuadMesh, optional
+        Of the layout.
+
+    Returns
+    -------
+    dict
+        Angles in degrees, indices in quarter turns.
+
+    Examples
+    --------
+    >>> import crossview
+    >>> crossview.report(crossview.solve(crossview.read("disk-4")))["isotropically_valid"]
+    True
+    """
+    from crossview.export.report import report as told  # VTK is loaded when it is wanted
+
+    return told(solution, layout, quads)
+
+
+def render(
+    solution: Solution,
+    path: str | os.PathLike[str],
+    *,
+    layout: QuadLayout | None = None,
+    quads: QuadMesh | None = None,
+    **how: Any,
+) -> Path:
+    """Draw a solution to a PNG, SVG or PDF file, without a display.
+
+    Parameters
+    ----------
+    solution : Solution
+        What to draw.
+    path : path-like
+        The new file.
+    layout : QuadLayout, optional
+        For the layer layout, and for separatrices that are exact.
+    quads : QuadMesh, optional
+        For the layer quads.
+    **how
+        Layers, size, scale, transparent, camera and background, as of
+        `crossview.export.figures.render`.
+
+    Returns
+    -------
+    Path
+        The file written.
+
+    Raises
+    ------
+    CrossviewError
+        A layer, the camera or the file's suffix is unknown, the size cannot be drawn, or there is
+        nothing to draw with.
+
+    Examples
+    --------
+    >>> import crossview
+    >>> solution = crossview.solve(crossview.read("disk-4"))
+    >>> crossview.render(solution, "figure.png", size=(320, 240)).name
+    'figure.png'
+    """
+    from crossview.export.figures import render as draw  # VTK is loaded when it is wanted
+
+    return draw(solution, path, layout=layout, quads=quads, **how)

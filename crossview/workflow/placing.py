@@ -1,0 +1,84 @@
+"""Problems whose singularities are placed anew: natural ones, completed, moved to validity."""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from dataclasses import replace
+
+from crossview.workflow.problem import Problem
+from solvers.fields.isotropic import IsotropicSolver
+from solvers.fields.natural import (
+    ALIGNMENTS,
+    CURVATURE_WEIGHT,
+    METHODS,
+    natural_singularities,
+)
+from solvers.progress import Progress
+from solvers.singularities.budget import require_budget
+from solvers.validity.completion import missing_singularities
+from solvers.validity.make_valid import make_valid as moved_to_validity
+from solvers.validity.search import Moved
+
+Placing = Generator[Progress, None, Problem]
+
+
+def natural(
+    problem: Problem,
+    method: str = METHODS[0],
+    seed: int = 0,
+    *,
+    alignment: str = ALIGNMENTS[0],
+    weight: float = CURVATURE_WEIGHT,
+) -> Placing:
+    """Put the singularities of a smooth cross-field in place of a problem's, with its own corners.
+
+    Parameters
+    ----------
+    problem : Problem
+    method, seed, alignment, weight
+        As of `solvers.fields.natural_singularities`.
+
+    Raises
+    ------
+    CrossviewError
+        As `solvers.fields.natural_singularities`.
+    """
+    bare = replace(problem, singularities=(), corners=None)
+    singularities = yield from natural_singularities(
+        bare.surface, method, seed, alignment=alignment, weight=weight, features=bare.features
+    )
+    require_budget(bare.surface, singularities, bare.chosen_corners)
+    return replace(bare, singularities=singularities)
+
+
+def complete(problem: Problem) -> Placing:
+    """Add the valences 3 or 5 that the index budget lacks, after those there are.
+
+    Raises
+    ------
+    CrossviewError
+        As `solvers.validity.missing_singularities`.
+    """
+    solver = IsotropicSolver(problem.surface, problem.corners)
+    added = yield from missing_singularities(solver, problem.singularities)
+    return replace(problem, singularities=(*problem.singularities, *added))
+
+
+def make_valid(problem: Problem) -> Generator[Progress, None, tuple[Problem, Moved]]:
+    """Move the unlocked singularities until every holonomy defect vanishes.
+
+    Returns
+    -------
+    Problem
+    Moved
+        The last step of the way: its defects, and the layout that was aimed at.
+
+    Raises
+    ------
+    SingularityError
+        As `solvers.validity.make_valid`.
+    """
+    end = yield from moved_to_validity(
+        problem.surface, problem.singularities, problem.corners, problem.options.refine
+    )
+    return replace(problem, singularities=end.singularities), end
