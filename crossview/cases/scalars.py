@@ -10,7 +10,7 @@ from typing import Any
 
 from crossview.cases.json_values import JsonField, known_word, shown
 from crossview.cases.shape import Shape, either
-from solvers.surface.validation import LARGEST
+from solvers.number_checks import LARGEST
 
 
 @dataclass(frozen=True)

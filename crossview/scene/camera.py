@@ -10,7 +10,7 @@ from vtkmodules.vtkRenderingCore import vtkCamera
 
 from crossview.view.geometry import FloatArray, Triangles
 from solvers.errors import CrossviewError
-from solvers.surface.validation import LARGEST
+from solvers.number_checks import LARGEST
 
 _VIEW_ANGLE = 24.0
 # A surface this flat lies on its flat side; others stand along y, as most model files do.

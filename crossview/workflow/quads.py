@@ -13,6 +13,7 @@ from crossview.workflow.solution import Solution
 from solvers.errors import CrossviewError
 from solvers.fields.crossfield import CrossField
 from solvers.layouts.layout import QuadLayout
+from solvers.number_checks import real_number, whole_number
 from solvers.progress import Progress, between
 from solvers.quads.filling import fill
 from solvers.quads.quadmesh import QuadMesh
@@ -56,10 +57,11 @@ class MeshOptions:
             raise CrossviewError(
                 "both an edge length and a number of quads are wanted", "", "give one of them"
             )
-        if self.edge_length is not None and not 0 < self.edge_length < np.inf:
-            raise CrossviewError("the edge length must be above 0", f"{self.edge_length:g}")
-        if self.target_quads is not None and self.target_quads < 1:
-            raise CrossviewError("the number of quads must be above 0", f"{self.target_quads}")
+        if self.edge_length is not None:
+            real_number("the edge length", self.edge_length, above=0)
+        if self.target_quads is not None:
+            quads = whole_number("the number of quads", self.target_quads, 1)
+            object.__setattr__(self, "target_quads", quads)
 
     def number_on(self, surface: TriSurface) -> int:
         """About how many quads these options make on a surface.

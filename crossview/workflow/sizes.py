@@ -9,6 +9,7 @@ import numpy as np
 
 from crossview.cases.json_values import CaseError
 from crossview.cases.model import Sizes
+from solvers.fields.sizes import size_map
 from solvers.surface.refinement import Refinement
 from solvers.surface.triangulation import FloatArray
 from solvers.surface.trisurface import barycentric
@@ -34,23 +35,8 @@ def read_sizes(sizes: Sizes, n_vertices: int) -> FloatArray:
         The file cannot be read, or does not hold positive finite sizes for these vertices.
     """
     name = sizes if isinstance(sizes, str) else "options.sizes"
-    values = _read(sizes) if isinstance(sizes, str) else np.array(sizes, dtype=float)
-    if values.shape not in ((n_vertices,), (n_vertices, 2)):
-        shape = " x ".join(map(str, values.shape))
-        raise CaseError(
-            f"the size map has {shape} values for {n_vertices} vertices",
-            name,
-            "give one or two sizes for each vertex",
-        )
-    wrong = np.flatnonzero(~(np.isfinite(values) & (values > 0)).reshape(n_vertices, -1).all(1))
-    if wrong.size:
-        raise CaseError(
-            "a size that is not positive and finite"
-            + (f", and {wrong.size - 1} more" if wrong.size > 1 else ""),
-            f"{name}, vertex {wrong[0]}",
-            "mend the size map",
-        )
-    return values
+    values = _read(sizes) if isinstance(sizes, str) else sizes
+    return size_map(values, n_vertices, name, error=CaseError)
 
 
 def _read(name: str) -> FloatArray:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from solvers.features.edges import no_features
+from solvers.number_checks import real_number
 from solvers.surface.triangulation import FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface
 
@@ -80,6 +81,7 @@ def sharp_edges(surface: TriSurface, degrees: float) -> IntArray:
     >>> bool((roof.vertices[roof.edges[edges], 0] == 0).all())
     True
     """
+    degrees = real_number("the dihedral angle of sharp edges", degrees, 0, 180)
     sharp = dihedral_angles(surface) > np.radians(degrees)
     angles = surface.triangulation.angles
     flat = np.flatnonzero(angles.max(axis=1) > FLAT)

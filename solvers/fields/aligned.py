@@ -20,6 +20,7 @@ from solvers.fields.feature_alignment import align_with_features
 from solvers.fields.integrability import Integrability
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.fields.prepared import PreparedSurface
+from solvers.number_checks import whole_numbers
 from solvers.surface.triangulation import QUARTER, FloatArray, IntArray
 
 FORCED = np.radians(60)
@@ -207,7 +208,7 @@ def aligned_field(
     Raises
     ------
     CrossviewError
-        If `turns` has the wrong length.
+        If `turns` has the wrong length, or one is no whole number.
     SingularityError
         As `IsotropicSolver.solve`.
 
@@ -228,12 +229,14 @@ def aligned_field(
     """
     solver, singularities = prepared.operators.own, prepared.singularities
     field, d = solver.solve(singularities), solver.discretization
-    if turns is not None and len(turns) != len(field.defects):
-        raise CrossviewError(
-            f"{len(turns)} turns are given for {len(field.defects)} holonomy conditions",
-            "turns",
-            "give one whole number for each condition",
-        )
+    if turns is not None:
+        turns = whole_numbers("the turns", turns, (None,)).tolist()
+        if len(turns) != len(field.defects):
+            raise CrossviewError(
+                f"{len(turns)} turns are given for {len(field.defects)} holonomy conditions",
+                "turns",
+                "give one whole number for each condition",
+            )
     if like is not None and solver.may_turn:
         solver = solver.turned(field.turn_to(like))
         field = solver.solve(singularities)

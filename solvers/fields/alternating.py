@@ -15,6 +15,7 @@ from solvers.algebra.factorization import Analysis, Factorization
 from solvers.fields.aligned import AlignedField
 from solvers.fields.anisotropic import Iterate, NewtonStep, roughness
 from solvers.fields.integrability import Integrability, Residual
+from solvers.number_checks import real_number, whole_number
 from solvers.progress import Progress
 from solvers.surface.triangulation import FloatArray
 
@@ -41,6 +42,11 @@ def alternate(
     Iterate
         With E after each inner iteration; converged if E fell below 1e-10.
     """
+    weight = real_number("the proximal weight", weight, above=0)
+    outer, inner = (
+        whole_number("outer iterations", outer, 0),
+        whole_number("inner iterations", inner, 0),
+    )
     i = aligned.integrability
     scales, angle = _ScaleStep(i, weight), _AngleStep(i)
     x = aligned.start

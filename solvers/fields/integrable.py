@@ -8,14 +8,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from solvers.errors import CrossviewError
 from solvers.fields.aligned import AlignedField, IntegratedField
 from solvers.fields.alternating import alternate
 from solvers.fields.anisotropic import Iterate, MinimumNormNewton, NewtonStep
 from solvers.fields.crossfield import Convergence, CrossField
+from solvers.fields.sizes import size_map
 from solvers.progress import Progress, relayed
 from solvers.surface.triangulation import FloatArray
-from solvers.surface.trisurface import TriSurface
 
 LEFT_ALONE = 1e-3
 """E at which the aligned field is the isotropic one, valid as far as the mesh can tell.
@@ -216,27 +215,9 @@ def _shown(
 
 def _log_targets(field: CrossField, sizes: npt.ArrayLike) -> FloatArray:
     """Return the (m, 2, 3) logarithms of the sizes along u and v at the corners."""
-    values = _checked_sizes(field.surface, sizes)
+    values = size_map(sizes, field.surface.n_vertices)
+    if values.ndim == 1:
+        values = np.stack([values, values], axis=1)
     corners = np.log(values)[field.surface.faces].transpose(0, 2, 1)
     swapped = np.abs(field.u[:, 0]) < np.abs(field.v[:, 0])
     return np.where(swapped[:, None, None], corners[:, ::-1], corners)
-
-
-def _checked_sizes(surface: TriSurface, sizes: npt.ArrayLike) -> FloatArray:
-    values = np.asarray(sizes, dtype=np.float64)
-    if values.ndim == 1:
-        values = np.stack([values, values], axis=1)
-    if values.shape != (surface.n_vertices, 2):
-        raise CrossviewError(
-            f"the size map has {len(values)} rows for {surface.n_vertices} vertices",
-            "sizes",
-            "give one or two sizes for each vertex",
-        )
-    bad = np.flatnonzero(~(np.isfinite(values) & (values > 0)).all(axis=1))
-    if len(bad):
-        raise CrossviewError(
-            f"{len(bad)} sizes are not positive and finite",
-            f"the first at vertex {bad[0]}",
-            "mend the size map",
-        )
-    return values

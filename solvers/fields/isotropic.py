@@ -21,7 +21,13 @@ from solvers.fields.connection import CLEARANCE, Discretization
 from solvers.fields.crossfield import Convergence, CrossField
 from solvers.fields.embedded import split_offsets
 from solvers.fields.holonomy import Holonomy
-from solvers.singularities.budget import Singularity, default_corners, require_budget
+from solvers.number_checks import real_number
+from solvers.singularities.budget import (
+    Singularity,
+    checked_corners,
+    default_corners,
+    require_budget,
+)
 from solvers.surface.cut_graph import cut_graph
 from solvers.surface.triangulation import QUARTER, FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface
@@ -84,7 +90,9 @@ class IsotropicSolver:
         features: Features | None = None,
     ) -> None:
         self.surface = surface
-        self.corners = dict(default_corners(surface) if corners is None else corners)
+        self.corners = (
+            default_corners(surface) if corners is None else checked_corners(surface, corners)
+        )
         self.discretization = Discretization(surface, delaunay=delaunay, features=features)
         matrix = stiffness(self.discretization.triangulation)
         # H is unique up to a constant: the first vertex is pinned, the mean subtracted after.
@@ -118,7 +126,7 @@ class IsotropicSolver:
         if not self.may_turn:
             raise CrossviewError("a boundary or a feature fixes the direction of the crosses")
         other = copy(self)
-        other.turn = self.turn + angle
+        other.turn = self.turn + real_number("the angle", angle)
         return other
 
     def solve(self, singularities: Sequence[Singularity]) -> CrossField:

@@ -28,6 +28,7 @@ from solvers.errors import CrossviewError
 from solvers.features.edges import Features, no_features
 from solvers.fields.crossfield import Convergence, CrossField
 from solvers.fields.principal import principal_crosses
+from solvers.number_checks import real_number, whole_number
 from solvers.progress import Progress
 from solvers.singularities.budget import Singularity, default_corners
 from solvers.surface.points import SurfacePoint
@@ -179,8 +180,8 @@ def natural_singularities(
         raise CrossviewError(
             f'unknown alignment "{alignment}"', advice=f"one of {', '.join(ALIGNMENTS)}"
         )
-    if not 0 <= weight < np.inf:
-        raise CrossviewError(f"the weight {weight:g} of the curvature is not 0 or more", "weight")
+    weight = real_number("the weight of the curvature", weight, 0)
+    seed = whole_number("the seed", seed, 0)
     pull = weight if alignment == "curvature" else 0.0
     problem = _Crosses(surface, no_features(surface) if features is None else features, pull)
     z = yield from {

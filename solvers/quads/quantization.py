@@ -16,6 +16,7 @@ from scipy.sparse import csr_array, vstack
 
 from solvers.errors import CrossviewError, SolveError
 from solvers.layouts.tmesh import TMesh
+from solvers.number_checks import real_number, whole_number
 from solvers.quads.collapse import Cut
 from solvers.quads.integer_program import arcs_alone, offsets
 from solvers.quads.unbroken import hasty, unbroken
@@ -125,6 +126,7 @@ def quantize(
     >>> chosen.counts.tolist(), chosen.n_quads
     ([4, 2, 4, 2], 8)
     """
+    edge_length = real_number("the edge length", edge_length, above=0)
     cuts: list[Cut] = []
     found = _nearest(tmesh, edge_length, collapse, time_limit, cuts)
     return _straightened(found, tmesh, collapse, STRAIGHTENING * time_limit, cuts)
@@ -172,10 +174,7 @@ def quantize_to(
     >>> chosen.counts.tolist(), round(chosen.edge_length, 6)
     ([20, 10, 20, 10], 0.1)
     """
-    if not 1 <= n_quads <= MOST_QUADS:
-        raise CrossviewError(
-            f"cannot make {n_quads} quads", "", f"ask for a number from 1 to {MOST_QUADS}"
-        )
+    n_quads = whole_number("the number of quads", n_quads, 1, MOST_QUADS)
     length = np.sqrt(tmesh.area / n_quads)
     low, high = 0.0, np.inf
     end = time.monotonic() + time_limit
@@ -214,8 +213,6 @@ def _nearest(
     tmesh: TMesh, edge_length: float, collapse: bool, time_limit: float, cuts: list[Cut]
 ) -> Quantization:
     """Return counts near to the arcs' lengths alone; conditions found on the way join `cuts`."""
-    if not np.isfinite(edge_length) or edge_length <= 0:
-        raise CrossviewError(f"the edge length must be a positive number, not {edge_length!r}")
     if tmesh.area / edge_length**2 > MOST_QUADS:
         raise CrossviewError(
             f"edges of {edge_length:.3g} make {tmesh.area / edge_length**2:.3g} quads",

@@ -14,6 +14,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from solvers.number_checks import whole_number
 from solvers.quads.quadmesh import QuadMesh, normals_at
 from solvers.quads.rails import Rail, boundary_rails
 from solvers.quads.sliding import Places, Sliding
@@ -99,6 +100,7 @@ def smooth(
     >>> bool(moved.scaled_jacobian.min() < 0.99 < smoothed.scaled_jacobian.min())
     True
     """
+    rounds = whole_number("rounds of smoothing", rounds, 0)
     rails = boundary_rails(mesh.surface)
     rail, held = mesh.boundary_loop.copy(), mesh.fixed.copy()
     for curve in curves:

@@ -15,6 +15,7 @@ from solvers.surface.trisurface import TriSurface
 from solvers.surface.validation import (
     HalfedgePairs,
     array_problems,
+    as_arrays,
     counted,
     duplicate_faces,
     face_components,
@@ -147,8 +148,7 @@ def _mended(
     vertices: npt.ArrayLike, faces: npt.ArrayLike, merge: bool, aggressive: bool
 ) -> tuple[FloatArray, IntArray, list[str]]:
     """Return the arrays after all repairs but the choice of a component, and notes on them."""
-    points = np.array(vertices, dtype=np.float64)
-    triangles = np.array(faces, dtype=np.int64)
+    points, triangles = as_arrays(vertices, faces)
     unused = ~np.isin(np.arange(len(points)), triangles)
     points[unused] = 0.0  # whatever stands there does no harm
     for problem in array_problems(points, triangles):

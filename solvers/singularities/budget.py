@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from solvers.errors import SingularityError
+from solvers.number_checks import whole_number
 from solvers.remedies import Remedy, in_words
 from solvers.singularities.remedies import AddMissing, ChangeOne, RemoveOne
 from solvers.surface.points import SurfacePoint
@@ -33,6 +34,11 @@ class Singularity:
     locked : bool, optional
         Whether it must stay where it is.
 
+    Raises
+    ------
+    SingularityError
+        Unless the valence is a whole number, at least 1.
+
     Examples
     --------
     >>> from solvers.primitives import disk
@@ -48,6 +54,12 @@ class Singularity:
     point: SurfacePoint
     valence: int
     locked: bool = False
+
+    def __post_init__(self) -> None:
+        valence = whole_number(
+            "the valence of a singularity", self.valence, 1, error=SingularityError
+        )
+        object.__setattr__(self, "valence", valence)
 
     @property
     def index(self) -> int:
@@ -87,6 +99,47 @@ def default_corners(surface: TriSurface) -> dict[int, int]:
     index = np.minimum((np.sign(turn) * size).astype(int), 1)
     turning = index != 0
     return {int(v): int(k) for v, k in zip(vertices[turning], index[turning], strict=True)}
+
+
+def checked_corners(surface: TriSurface, corners: Mapping[int, int]) -> dict[int, int]:
+    """Return corners given from outside.
+
+    Parameters
+    ----------
+    surface : TriSurface
+        The surface.
+    corners : mapping of int to int
+        Index by boundary vertex.
+
+    Raises
+    ------
+    SingularityError
+        If a vertex is not on the boundary, or an index no whole number up to 1, one quad.
+
+    Examples
+    --------
+    >>> from solvers.primitives import square
+    >>> from solvers.singularities.budget import checked_corners
+    >>> checked_corners(square(n=2), {0: 1.0})
+    {0: 1}
+    >>> checked_corners(square(n=2), {4: 1})
+    Traceback (most recent call last):
+    solvers.errors.SingularityError: vertex 4 has a corner but is not on the boundary: ...
+    """
+    found: dict[int, int] = {}
+    for given, turning in corners.items():
+        last = surface.n_vertices - 1
+        vertex = whole_number("the vertex of a corner", given, 0, last, error=SingularityError)
+        index = whole_number(
+            f"the index of corner {vertex}", turning, most=1, error=SingularityError
+        )
+        if not surface.boundary_vertices[vertex]:
+            raise SingularityError(
+                f"vertex {vertex} has a corner but is not on the boundary",
+                advice="place a singularity there instead",
+            )
+        found[vertex] = index
+    return found
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from solvers.errors import SingularityError
+from solvers.number_checks import real_number, whole_number
 from solvers.singularities.budget import Singularity
 from solvers.surface.geodesics import straightest
 from solvers.surface.points import SurfacePoint
@@ -106,7 +107,10 @@ def merged(
     >>> merged(surface, [Singularity(left, 3), Singularity(right, 5)], 0, 1)
     ()
     """
-    first, second = sorted((one, other))
+    last = len(singularities) - 1
+    first, second = sorted(
+        whole_number("the number of a singularity", i, 0, last) for i in (one, other)
+    )
     a, b = singularities[first], singularities[second]
     names = f"#{first + 1} and #{second + 1}"
     if first == second:
@@ -169,20 +173,21 @@ def split(
     >>> [s.valence for s in split(surface, [one], 0)]
     [6, 6]
     """
-    whole = singularities[which]
+    which = whole_number("the number of a singularity", which, 0, len(singularities) - 1)
+    held = singularities[which]
     name = f"#{which + 1}"
-    if abs(whole.index) < 2:
+    if abs(held.index) < 2:
         raise SingularityError(
-            f"a valence {whole.valence} cannot be split", name, "add a pair there instead"
+            f"a valence {held.valence} cannot be split", name, "add a pair there instead"
         )
-    if whole.locked:
+    if held.locked:
         raise SingularityError("the singularity is locked", name, "unlock it")
-    smaller = int(whole.index / 2)
+    smaller = int(held.index / 2)
     others = [s for i, s in enumerate(singularities) if i != which]
-    ends = _ends(surface, others, whole.point, apart)
+    ends = _ends(surface, others, held.point, apart)
     parts = (
-        replace(whole, point=ends[0], valence=4 - (whole.index - smaller)),
-        replace(whole, point=ends[1], valence=4 - smaller),
+        replace(held, point=ends[0], valence=4 - (held.index - smaller)),
+        replace(held, point=ends[1], valence=4 - smaller),
     )
     return (*singularities[:which], *parts, *singularities[which + 1 :])
 
@@ -197,6 +202,7 @@ def _ends(
     if apart is None:
         edge = float(surface.triangulation.lengths.mean())
         apart = max(2 * edge, APART * float(np.sqrt(surface.area)))
+    apart = real_number("the distance between the two of a pair", apart, above=0)
     obstacles = np.concatenate(
         [
             surface.positions([s.point for s in singularities]),

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from solvers.errors import SingularityError
+from solvers.number_checks import real_number, whole_number
 from solvers.singularities.budget import Singularity
 from solvers.surface.points import SurfacePoint
 from solvers.surface.triangulation import FloatArray
@@ -58,7 +59,7 @@ def mirrored(
     >>> surface.position(image.point).round(6).tolist()
     [-0.3, 0.2, 0.0]
     """
-    matrix = np.eye(3)
+    axis, matrix = whole_number("the axis", axis, 0, 2), np.eye(3)
     matrix[axis, axis] = -1
     return _carried(surface, singularities, matrix, f"mirrored across {AXES[axis]}")
 
@@ -104,6 +105,7 @@ def turned(
     [0.0, 0.3, 0.0]
     """
     matrix = np.eye(3)
+    axis, angle = whole_number("the axis", axis, 0, 2), real_number("the angle", angle)
     u, v = (axis + 1) % 3, (axis + 2) % 3
     cosine, sine = np.cos(angle), np.sin(angle)
     matrix[[u, u, v, v], [u, v, u, v]] = cosine, -sine, sine, cosine

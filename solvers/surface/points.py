@@ -4,6 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from solvers.errors import CrossviewError
+from solvers.number_checks import real_numbers, whole_number
+
+ROUNDING = 1e-9
+"""By how much weights may be negative, or miss 1 in sum. Chosen, far above what arithmetic leaves.
+"""
+
 
 @dataclass(frozen=True)
 class SurfacePoint:
@@ -16,6 +23,11 @@ class SurfacePoint:
     barycentric : tuple of 3 float
         Weights of the triangle's corners, non-negative, with sum 1.
 
+    Raises
+    ------
+    CrossviewError
+        Unless the triangle is a whole number from 0 and the weights are such numbers.
+
     Examples
     --------
     >>> from solvers.primitives import square
@@ -27,3 +39,15 @@ class SurfacePoint:
 
     face: int
     barycentric: tuple[float, float, float]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "face", whole_number("the triangle of a point", self.face, 0))
+        a, b, c = real_numbers(
+            "the barycentric weights of a point", self.barycentric, (3,)
+        ).tolist()
+        if not (min(a, b, c) >= -ROUNDING and abs(a + b + c - 1) <= ROUNDING):
+            raise CrossviewError(
+                "the barycentric weights of a point must be at least 0 with sum 1, "
+                f"not {a:g}, {b:g}, {c:g}"
+            )
+        object.__setattr__(self, "barycentric", (a, b, c))

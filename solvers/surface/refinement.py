@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from solvers.number_checks import whole_number
 from solvers.surface.delaunay import DelaunayTriangulation
 from solvers.surface.points import SurfacePoint
 from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
@@ -120,6 +121,7 @@ def refine_at(
     >>> surface.n_faces < refinement.surface.n_faces, round(refinement.surface.area, 9)
     (True, 1.0)
     """
+    levels = whole_number("levels of refinement", levels, 0)
     mesh = _Mesh(surface, points)
     if feature_edges is not None and len(feature_edges):
         mesh.split_between(surface, feature_edges)

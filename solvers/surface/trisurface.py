@@ -8,9 +8,11 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
+from solvers.errors import CrossviewError
+from solvers.number_checks import LARGEST, real_numbers, whole_number
 from solvers.surface.points import SurfacePoint
 from solvers.surface.triangulation import FloatArray, IntArray, IntrinsicTriangulation
-from solvers.surface.validation import HalfedgePairs, problems
+from solvers.surface.validation import HalfedgePairs, as_arrays, problems
 
 
 class TriSurface:
@@ -52,8 +54,9 @@ class TriSurface:
     def __init__(
         self, vertices: npt.ArrayLike, faces: npt.ArrayLike, *, trusted: bool = False
     ) -> None:
-        self.vertices: FloatArray = np.array(vertices, dtype=np.float64)
-        self.faces: IntArray = np.array(faces, dtype=np.int64)
+        self.vertices: FloatArray
+        self.faces: IntArray
+        self.vertices, self.faces = as_arrays(vertices, faces)
         if not trusted:
             for problem in problems(self.vertices, self.faces):
                 raise problem
@@ -245,8 +248,13 @@ class TriSurface:
         ----------
         vertex : int
             Its number.
+
+        Raises
+        ------
+        CrossviewError
+            If there is none of this number.
         """
-        h = int(self._halfedge_from[vertex])
+        h = int(self._halfedge_from[whole_number("the vertex", vertex, 0, self.n_vertices - 1)])
         weights = [0.0, 0.0, 0.0]
         weights[h % 3] = 1.0
         return SurfacePoint(h // 3, (weights[0], weights[1], weights[2]))
@@ -274,8 +282,15 @@ class TriSurface:
         ----------
         position : (3,) array_like
             Coordinates.
+
+        Raises
+        ------
+        CrossviewError
+            Unless they are three finite numbers.
         """
-        x = np.asarray(position, dtype=np.float64)
+        x = real_numbers("the position", position, (3,))
+        if not (np.abs(x) < LARGEST).all():
+            raise CrossviewError(f"the position must be finite numbers, not {x.tolist()}")
         to_centre = np.linalg.norm(self.barycentres - x, axis=1)
         reach = self.triangulation.lengths.max(axis=1)
         candidates = np.flatnonzero(to_centre - reach <= (to_centre + reach).min())

@@ -10,14 +10,9 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from solvers.errors import SurfaceError
+from solvers.number_checks import LARGEST, real_numbers, whole_numbers
 from solvers.remedies import RepairSurface, TakeLargest
 from solvers.surface.triangulation import FloatArray, IntArray, next_halfedge
-
-LARGEST = 1e100
-"""Bound of all coordinates and lengths, in the surface's unit.
-
-From the range of double precision, 1.8e308: the products of three must not overflow.
-"""
 
 DEGENERATE = 1e-7
 """Twice the area over the squared longest edge, a pure number, at which a triangle is degenerate.
@@ -127,6 +122,27 @@ def counted(number: int, noun: str) -> str:
     """Return the number with its noun: "1 vertex", "2 vertices"."""
     plural = noun.removesuffix("vertex") + "vertices" if noun.endswith("vertex") else f"{noun}s"
     return f"{number} {noun if number == 1 else plural}"
+
+
+def as_arrays(vertices: npt.ArrayLike, faces: npt.ArrayLike) -> tuple[FloatArray, IntArray]:
+    """Return new arrays of what is to be a surface.
+
+    Parameters
+    ----------
+    vertices : (n, 3) array_like of float
+        Coordinates.
+    faces : (m, 3) array_like of int
+        Corner vertices.
+
+    Raises
+    ------
+    SurfaceError
+        If they are no numbers, or corners no whole ones; what else they are is not asked.
+    """
+    return (
+        real_numbers("the coordinates of vertices", vertices, error=SurfaceError),
+        whole_numbers("the corners of triangles", faces, error=SurfaceError),
+    )
 
 
 def array_problems(vertices: FloatArray, faces: IntArray) -> Iterator[SurfaceError]:

@@ -220,10 +220,13 @@ class TestSizes:
     @pytest.mark.parametrize(
         ("content", "said"),
         [
-            (np.ones(80), "80 values for 81 vertices"),
-            (np.ones((81, 3)), "81 x 3 values for 81 vertices"),
+            (np.ones(80), "80 numbers for 81 vertices"),
+            (np.ones((81, 3)), "81 x 3 numbers for 81 vertices"),
             (np.r_[np.ones(80), np.nan], "not positive and finite (.*vertex 80)"),
-            (np.r_[0.0, -1.0, np.ones(79)], "and 1 more (.*vertex 0)"),
+            (
+                np.r_[0.0, -1.0, np.ones(79)],
+                "2 sizes are not .*first at vertex 0)",
+            ),
             (np.array(["a"] * 81), "not an array of numbers"),
             (np.array([None] * 81), "not an array of numbers"),
         ],
@@ -241,7 +244,7 @@ class TestSizes:
 
     @pytest.mark.parametrize(
         ("content", "said"),
-        [(None, "cannot read"), (b"one two", "not an array"), (b"", "0 values for 81")],
+        [(None, "cannot read"), (b"one two", "not an array"), (b"", "0 numbers for 81")],
     )
     def test_a_file_that_is_none_is_refused(
         self,

@@ -212,12 +212,16 @@ def test_sizes_follow_the_map_where_nothing_hinders() -> None:
 @pytest.mark.parametrize(
     ("sizes", "message"),
     [
-        (np.ones(7), "7 rows for"),
-        (np.full(289, np.nan), "289 sizes are not positive and finite"),
-        (np.r_[0.0, np.ones(288)], "1 sizes are not positive and finite"),
+        (np.ones(7), "7 numbers for 289 vertices"),
+        (np.ones((289, 3)), "289 x 3 numbers for 289 vertices"),
+        (0.1, "a single number for 289 vertices"),
+        (["small"] * 289, "the size map must be numbers"),
+        (np.ones(289, dtype=bool), "the size map must be numbers, not True and False"),
+        (np.full(289, np.nan), r"289 sizes are not positive and finite \(sizes, the first .* 0\)"),
+        (np.r_[1.0, 0.0, np.ones(287)], r"a size is not positive and finite \(sizes, vertex 1\)"),
     ],
 )
-def test_bad_size_maps_are_refused(sizes: np.ndarray, message: str) -> None:
+def test_bad_size_maps_are_refused(sizes: object, message: str) -> None:
     surface = BUILTIN["square"](n=16)
     assert surface.n_vertices == 289
     with pytest.raises(CrossviewError, match=message):
