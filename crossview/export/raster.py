@@ -99,7 +99,7 @@ class Seen:
         homogeneous = np.concatenate([points, np.ones((*points.shape[:-1], 1))], axis=-1)
         clip = homogeneous @ self.matrix.T
         cube = (clip[..., :3] / clip[..., 3:] + 1.0) / 2.0
-        return cube * np.array([*self.size, 1.0])
+        return np.asarray(cube * np.array([*self.size, 1.0]))
 
     def visible(self, projected: FloatArray, towards: float) -> npt.NDArray[np.bool_]:
         """Return whether projected points (..., 3) are before the surface, or behind by less.

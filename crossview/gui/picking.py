@@ -100,7 +100,7 @@ class Picker:
         """Return the unit vector to the right of the picture."""
         camera = self._renderer.GetActiveCamera()
         right = np.cross(camera.GetDirectionOfProjection(), camera.GetViewUp())
-        return right / np.linalg.norm(right)
+        return np.asarray(right / np.linalg.norm(right))
 
     def _display(self, position: NDArray[np.float64]) -> Place:
         self._renderer.SetWorldPoint(*position, 1.0)

@@ -113,7 +113,9 @@ def quad_colors(
         table = color_table(SCALARS["quads"].color_map)[:, :3]
         low, high = quality_limits(settings)
         share = (mesh.quality - low) / (high - low)
-        return table[np.clip(np.rint(share * (len(table) - 1)), 0, len(table) - 1).astype(int)]
+        return np.asarray(
+            table[np.clip(np.rint(share * (len(table) - 1)), 0, len(table) - 1).astype(int)]
+        )
     return np.tile(np.round(grey).astype(np.uint8), (len(mesh.quads), 1))
 
 

@@ -137,4 +137,4 @@ def shade(mesh: pv.PolyData) -> IntArray:
     normals.AutoOrientNormalsOff()
     normals.Update()
     mesh.shallow_copy(normals.GetOutput())
-    return vtk_to_numpy(mesh.GetPointData().GetArray("origin")).astype(int)
+    return np.asarray(vtk_to_numpy(mesh.GetPointData().GetArray("origin")).astype(int))

@@ -91,4 +91,4 @@ def cross_angle(triangles: Triangles, u: FloatArray) -> FloatArray:
     along = np.einsum("ij,j->i", u, reference)
     across = np.einsum("ij,ij->i", np.cross(normals, u), np.broadcast_to(reference, u.shape))
     # reference = along u + across (n x u): the cross is turned back by this angle.
-    return np.mod(-np.arctan2(across, along), np.pi / 2)
+    return np.asarray(np.mod(-np.arctan2(across, along), np.pi / 2))

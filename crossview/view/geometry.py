@@ -48,7 +48,7 @@ class Triangles:
     @cached_property
     def areas(self) -> FloatArray:
         """(m,)."""
-        return np.linalg.norm(self.area_vectors, axis=1)
+        return np.asarray(np.linalg.norm(self.area_vectors, axis=1))
 
     @cached_property
     def normals(self) -> FloatArray:
@@ -76,7 +76,7 @@ class Triangles:
     def boundary_edges(self) -> IntArray:
         """(k, 2): the edges of one triangle only."""
         edges, counts, _ = self._edges
-        return edges[counts == 1]
+        return np.asarray(edges[counts == 1])
 
     @cached_property
     def outward(self) -> int:
@@ -101,7 +101,7 @@ class Triangles:
         at = (np.cumsum(counts) - counts)[pairs]
         left, right = (self.normals[order[i] // 3] for i in (at, at + 1))
         turned = np.einsum("ij,ij->i", left, right) < np.cos(np.radians(degrees))
-        return edges[pairs][turned]
+        return np.asarray(edges[pairs][turned])
 
     @cached_property
     def plane_normal(self) -> FloatArray | None:

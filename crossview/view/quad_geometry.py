@@ -45,7 +45,7 @@ class QuadGeometry:
         """
         edges, first, last, counts = self._sides
         patch = self.mesh.patch
-        return edges[(counts == 1) | (patch[first] != patch[last])]
+        return np.asarray(edges[(counts == 1) | (patch[first] != patch[last])])
 
     @cached_property
     def patch_colors(self) -> npt.NDArray[np.uint8]:

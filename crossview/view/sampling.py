@@ -108,7 +108,7 @@ def _distance(positions: FloatArray, ends: FloatArray, radius: float) -> FloatAr
     number = np.arange(len(edge)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
     along = ((number + 0.5) / pieces[edge])[:, None]
     points = (1.0 - along) * ends[edge, 0] + along * ends[edge, 1]
-    return cKDTree(points).query(positions, distance_upper_bound=2.0 * radius)[0]
+    return np.asarray(cKDTree(points).query(positions, distance_upper_bound=2.0 * radius)[0])
 
 
 def _position_hash(positions: FloatArray, points: FloatArray) -> npt.NDArray[np.float64]:
@@ -120,7 +120,7 @@ def _position_hash(positions: FloatArray, points: FloatArray) -> npt.NDArray[np.
     for shift, factor in ((31, 0x7FB5D329728EA185), (27, 0x81DADEF4BC2DD44D)):
         mixed = (mixed ^ (mixed >> np.uint64(shift))) * np.uint64(factor)
     mixed ^= mixed >> np.uint64(33)
-    return (mixed >> np.uint64(11)).astype(float) / 2.0**53
+    return np.asarray((mixed >> np.uint64(11)).astype(float) / 2.0**53)
 
 
 def _lowest_apart(

@@ -71,7 +71,7 @@ def scalar_values(view: SceneView, name: str, triangles: Triangles) -> FloatArra
     if view.H is None or view.half_log_aspect is None:
         return None
     mean, half = view.H[triangles.faces].mean(axis=1), view.half_log_aspect.mean(axis=1)
-    return {"aspect": np.abs(2.0 * half), "H1": mean - half, "H2": mean + half}[name]
+    return np.asarray({"aspect": np.abs(2.0 * half), "H1": mean - half, "H2": mean + half}[name])
 
 
 def scalar_limits(view: SceneView, name: str, triangles: Triangles, values: FloatArray) -> Limits:

@@ -320,7 +320,8 @@ class _SuperLU:
         if self._order is None:
             factor = splu(self._full(matrix), permc_spec="MMD_AT_PLUS_A", **SYMMETRIC_MODE)
             self._order = np.argsort(factor.perm_c)
-            return factor.solve
+            first: Solve = factor.solve
+            return first
         order = self._order
         factor = splu(self._in_order(matrix, order), permc_spec="NATURAL", **SYMMETRIC_MODE)
 

@@ -181,4 +181,4 @@ def corner_midpoint_offsets(cotangents: FloatArray, values: FloatArray) -> Float
     flux = (cotangents[:, [2, 0, 1]] / 6.0) * (values - values[:, [1, 2, 0]])
     # flux[:, i] belongs to halfedge i. With c the cotangents, the offset at halfedge (i, j)
     # opposite k is (2 c_k (H_i - H_j) + c_j (H_i - H_k) - c_i (H_j - H_k)) / 6.
-    return 3.0 * flux - flux.sum(axis=1, keepdims=True)
+    return np.asarray(3.0 * flux - flux.sum(axis=1, keepdims=True))

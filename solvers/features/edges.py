@@ -326,4 +326,4 @@ def _along_chains(n: int, links: IntArray, turn: FloatArray) -> tuple[IntArray, 
 def _components(n: int, links: IntArray) -> IntArray:
     ones = np.ones(len(links), dtype=np.int8)
     graph = coo_array((ones, (links[:, 0], links[:, 1])), shape=(n, n))
-    return connected_components(graph, directed=False)[1].astype(np.int64)
+    return np.asarray(connected_components(graph, directed=False)[1].astype(np.int64))

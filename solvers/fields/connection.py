@@ -233,7 +233,7 @@ class Discretization:
 
     @cached_property
     def _tree_transport(self) -> FloatArray:
-        return self.triangulation.transport[self.tree.crossing]
+        return np.asarray(self.triangulation.transport[self.tree.crossing])
 
     def closing(self, theta: FloatArray, offsets: FloatArray, h: IntArray) -> FloatArray:
         """Return by how much theta fails to continue over halfedges, in (-pi/4, pi/4].

@@ -117,7 +117,7 @@ class CrossField:
     @cached_property
     def log_aspect(self) -> FloatArray:
         """(m,) |H2 - H1| at each barycentre."""
-        return np.abs(2 * self.half_log_aspect.mean(axis=1))
+        return np.asarray(np.abs(2 * self.half_log_aspect.mean(axis=1)))
 
     @cached_property
     def aspect_roughness(self) -> float:

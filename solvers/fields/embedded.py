@@ -55,7 +55,7 @@ def split_offsets(
     home = (int(np.argmax(weights)) + 1) % 3  # the barycentre is opposite the nearest corner
     centre = corners.mean(axis=0)
     at_centre = theta[home] + _turn(parts[home], by_part[home], centre - parts[home].mean(axis=0))
-    return theta + offsets[:, 0] - at_centre
+    return np.asarray(theta + offsets[:, 0] - at_centre)
 
 
 def _turn(corners: FloatArray, values: FloatArray, displacement: FloatArray) -> float:

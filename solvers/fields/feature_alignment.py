@@ -162,7 +162,7 @@ def _without_jumps(angle: FloatArray, discretization: Discretization) -> FloatAr
     steps = np.cumsum(steps)
     smooth = np.empty_like(along)
     smooth[order] = steps + np.repeat(along[first] - steps[first], sizes)
-    return smooth
+    return np.asarray(smooth)
 
 
 class _Filling:

@@ -132,7 +132,7 @@ class Holonomy:
         third = located.place[:, 1] / corners[:, 2, 1]
         second = (located.place[:, 0] - third * corners[:, 2, 0]) / corners[:, 1, 0]
         at = np.stack([1 - second - third, second, third], axis=1)
-        return np.einsum("ckj,kj->ck", self._corner_values[:, located.face], at)
+        return np.asarray(np.einsum("ckj,kj->ck", self._corner_values[:, located.face], at))
 
     def defects(self, singularities: Sequence[Singularity]) -> FloatArray:
         """Return the defects of a configuration, without solving.
@@ -190,7 +190,7 @@ class Holonomy:
             Values at the corners of the triangulation's triangles.
         """
         coefficients = np.linalg.solve(self.harmonic_energy, turns)
-        return np.einsum("c,cmi->mi", coefficients, self._corner_values)
+        return np.asarray(np.einsum("c,cmi->mi", coefficients, self._corner_values))
 
     @cached_property
     def harmonic_energy(self) -> FloatArray:

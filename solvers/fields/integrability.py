@@ -235,4 +235,4 @@ def _sheets(twin: IntArray, quarter_turns: IntArray) -> IntArray:
     columns = np.concatenate([beside + n * odd, beside + n * (1 - odd)])
     graph = coo_array((np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(2 * n, 2 * n))
     _, label = connected_components(graph, directed=False)
-    return np.sign(label[n:] - label[:n]).astype(np.int64)
+    return np.asarray(np.sign(label[n:] - label[:n]).astype(np.int64))

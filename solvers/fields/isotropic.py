@@ -262,4 +262,4 @@ class IsotropicSolver:
         gradient = t.gradients(h[t.faces])[at.face]
         from_centre = at.place - t.corner_positions[at.face].mean(axis=1)
         turn = gradient[:, 0] * from_centre[:, 1] - gradient[:, 1] * from_centre[:, 0]
-        return theta[at.face] + turn - at.turn
+        return np.asarray(theta[at.face] + turn - at.turn)

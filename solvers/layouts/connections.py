@@ -84,7 +84,7 @@ def beside(traces: Traces) -> IntArray:
     final = chords[last]
     enters, leaves = ends_of(chart, final)
     off = ((leaves - enters) * AXES[final.axis].conj()).imag
-    return last[np.abs(off) > ROUNDING * chart.edge_length]
+    return np.asarray(last[np.abs(off) > ROUNDING * chart.edge_length])
 
 
 def conditions(traces: Traces, passed: IntArray) -> csc_array:

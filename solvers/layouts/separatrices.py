@@ -69,7 +69,7 @@ class Separatrices:
     @property
     def t_junctions(self) -> FloatArray:
         """(k, 3) where limit cycles are cut."""
-        return self.points[self.offsets[1:][self.ends == T_JUNCTION] - 1]
+        return np.asarray(self.points[self.offsets[1:][self.ends == T_JUNCTION] - 1])
 
     @property
     def limit_cycles(self) -> int:
@@ -191,4 +191,4 @@ def _along_boundary(traces: Traces) -> BoolArray:
     last = traces.chords[traces.offsets[1:] - 1]
     side = traces.chart.images[last.face, last.side_out]
     slope = np.abs((AXES[last.axis] / side).real) > np.sqrt(0.5) / np.abs(side)
-    return (traces.ends == BORDER) & ~last.corner_out & slope
+    return np.asarray((traces.ends == BORDER) & ~last.corner_out & slope)

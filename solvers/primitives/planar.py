@@ -138,7 +138,7 @@ def _lattice(loops: Sequence[FloatArray], h: float) -> FloatArray:
     # one more entry, the last, answers for points outside every triangle (-1)
     inside = np.append(_inside(triangulation, _loop_edges(loops)), False)
     clear = cKDTree(fixed).query(points)[0] > CLEARANCE * h
-    return points[clear & inside[triangulation.find_simplex(points)]]
+    return np.asarray(points[clear & inside[triangulation.find_simplex(points)]])
 
 
 def _loop_edges(loops: Sequence[FloatArray]) -> IntArray:
@@ -154,7 +154,7 @@ def _loop_edges(loops: Sequence[FloatArray]) -> IntArray:
 
 def _triangulate(points: FloatArray, boundary: IntArray) -> IntArray:
     triangulation = _delaunay(points)
-    return triangulation.simplices[_inside(triangulation, boundary)].astype(np.int64)
+    return np.asarray(triangulation.simplices[_inside(triangulation, boundary)].astype(np.int64))
 
 
 def _delaunay(points: FloatArray) -> Delaunay:

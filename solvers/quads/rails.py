@@ -56,7 +56,7 @@ class Rail:
             np.linalg.norm(np.cross(before, along), axis=1), (before * along).sum(axis=1)
         )
         if self.closed:
-            return self._at[:-1][turn > SHARP]
+            return np.asarray(self._at[:-1][turn > SHARP])
         return np.concatenate([[0.0], self._at[1:-1][turn[1:] > SHARP], [self.length]])
 
     def positions(self, s: FloatArray) -> FloatArray:

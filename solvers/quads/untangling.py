@@ -85,7 +85,7 @@ def _independent(mesh: QuadMesh, wanted: BoolArray, round_: int) -> BoolArray:
     priority = np.where(wanted, np.random.default_rng(round_).permutation(n), n)
     least = np.full(n, n)
     np.minimum.at(least, mesh.quads, priority[mesh.quads].min(axis=1)[:, None])
-    return wanted & (least == priority)
+    return np.asarray(wanted & (least == priority))
 
 
 def _tried(

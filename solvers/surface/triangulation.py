@@ -22,12 +22,12 @@ QUARTER = np.pi / 2
 
 def next_halfedge(h: IntArray) -> IntArray:
     """Return the halfedge after `h` in its face."""
-    return h + 1 - 3 * (h % 3 == 2)
+    return np.asarray(h + 1 - 3 * (h % 3 == 2))
 
 
 def previous_halfedge(h: IntArray) -> IntArray:
     """Return the halfedge before `h` in its face."""
-    return h - 1 + 3 * (h % 3 == 0)
+    return np.asarray(h - 1 + 3 * (h % 3 == 0))
 
 
 def wrap(angle: FloatArray, period: float) -> FloatArray:
@@ -60,7 +60,7 @@ def heron(lengths: FloatArray) -> FloatArray:
     """Return the areas of triangles with sides (k, 3), by Kahan's stable form of the formula."""
     a, b, c = np.sort(lengths, axis=1).T[::-1]
     product = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c))
-    return 0.25 * np.sqrt(np.maximum(product, 0.0))
+    return np.asarray(0.25 * np.sqrt(np.maximum(product, 0.0)))
 
 
 class IntrinsicTriangulation:
@@ -207,4 +207,4 @@ class IntrinsicTriangulation:
         -------
         (m, 2) float array
         """
-        return np.einsum("mi,mid->md", values, self.hat_gradients)
+        return np.asarray(np.einsum("mi,mid->md", values, self.hat_gradients))

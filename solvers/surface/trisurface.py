@@ -229,7 +229,7 @@ class TriSurface:
         point : SurfacePoint
             On this surface.
         """
-        return np.asarray(point.barycentric) @ self.vertices[self.faces[point.face]]
+        return np.asarray(np.asarray(point.barycentric) @ self.vertices[self.faces[point.face]])
 
     def positions(self, points: Sequence[SurfacePoint]) -> FloatArray:
         """Return the (k, 3) coordinates of surface points.

@@ -309,7 +309,7 @@ def face_components(n_vertices: int, faces: IntArray) -> IntArray:
     size = np.bincount(of_face, minlength=label.max() + 1)
     rank = np.empty(len(size), dtype=np.int64)
     rank[np.argsort(-size, kind="stable")] = np.arange(len(size))
-    return rank[of_face]
+    return np.asarray(rank[of_face])
 
 
 def component_sizes(n_vertices: int, faces: IntArray) -> IntArray:

@@ -58,7 +58,9 @@ class LevelLines:
         surface : TriSurface
             That the lines lie on.
         """
-        return np.einsum("sek,skd->sed", self.weights, surface.vertices[surface.faces[self.faces]])
+        return np.asarray(
+            np.einsum("sek,skd->sed", self.weights, surface.vertices[surface.faces[self.faces]])
+        )
 
 
 class Guide:

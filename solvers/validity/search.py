@@ -251,7 +251,7 @@ class Search:
         np.add.at(sums, owner, in_space.swapaxes(0, 1))
         sums /= np.bincount(owner, fine.face_areas[faces])[:, None, None]
         own = np.stack(self._surface.face_frames, axis=1)[[s.point.face for s in singularities]]
-        return np.einsum("kcx,kdx->ckd", sums, own)
+        return np.asarray(np.einsum("kcx,kdx->ckd", sums, own))
 
     def _nudged(
         self,

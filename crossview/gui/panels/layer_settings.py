@@ -172,7 +172,7 @@ def _factor(step: int) -> float:
 
 
 def _from_factor(value: float) -> int:
-    return round(STEPS * (np.log(value) / np.log(FACTOR) + 1.0) / 2.0)
+    return round(STEPS * (float(np.log(value) / np.log(FACTOR)) + 1.0) / 2.0)
 
 
 def _number(value: float) -> QDoubleSpinBox:
