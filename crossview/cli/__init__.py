@@ -27,7 +27,7 @@ __all__ = ["app", "main"]
 app = App(
     name="crossview",
     version=__version__,
-    help_format="plaintext",
+    help_format="markdown",
     suppress_keyboard_interrupt=False,
 )
 app.default(window)

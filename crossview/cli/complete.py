@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from crossview.cli.options import Flag, Output, chosen_case
+from crossview.cli.options import Output, Quiet, SurfaceOptions
 from crossview.cli.terminal import say, watch
 from crossview.workflow.problem import Problem
 from solvers.fields.isotropic import IsotropicSolver
@@ -16,9 +16,8 @@ def complete(
     /,
     *,
     output: Output,
-    component: str | None = None,
-    repair: Flag = False,
-    quiet: Flag = False,
+    chosen: SurfaceOptions = SurfaceOptions(),
+    quiet: Quiet = False,
 ) -> None:
     """Add the valences 3 or 5 that the index budget lacks, where they even out the sizes most.
 
@@ -28,14 +27,8 @@ def complete(
         A case, the name of a gallery case or a surface.
     output
         The new case file.
-    component
-        Of a surface in several pieces: largest or a number (0 is the largest).
-    repair
-        Also mend what cannot be mended without changing the surface.
-    quiet
-        Show neither progress nor summary.
     """
-    found = chosen_case(case, component=component, repair=repair)
+    found = chosen.case(case)
     problem = Problem.from_case(found)
     solver = IsotropicSolver(problem.surface, problem.corners)
     added = watch(missing_singularities(solver, problem.singularities), quiet)

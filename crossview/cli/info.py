@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from crossview.cli.describe import describe
-from crossview.cli.options import Flag, Json, chosen_case
+from crossview.cli.options import Json, SurfaceOptions
 from crossview.cli.terminal import say, say_json
 
 
@@ -14,8 +14,7 @@ def info(
     surface: str,
     /,
     *,
-    component: str | None = None,
-    repair: Flag = False,
+    chosen: SurfaceOptions = SurfaceOptions(),
     as_json: Json = False,
 ) -> None:
     """Describe a surface: counts, topology, problems, what its singularities must sum to.
@@ -24,15 +23,10 @@ def info(
     ----------
     surface
         A surface file, a case, or the name of a built-in surface.
-    component
-        Of a surface in several pieces: largest, a number (0 is the largest), or all, which is
-        what is described by default.
-    repair
-        Also mend what cannot be mended without changing the surface.
     as_json
         Print JSON, with the numbers of all offending elements.
     """
-    found = describe(chosen_case(surface, component=component, repair=repair))
+    found = describe(chosen.case(surface))
     if as_json:
         say_json(found)
     else:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from crossview.cli.options import Flag, Output, chosen_case
+from crossview.cli.options import Output, Quiet, SurfaceOptions
 from crossview.cli.terminal import say, watch
 from crossview.workflow.problem import Problem
 from solvers.validity.make_valid import make_valid as moved_to_validity
@@ -15,9 +15,8 @@ def make_valid(
     /,
     *,
     output: Output,
-    component: str | None = None,
-    repair: Flag = False,
-    quiet: Flag = False,
+    chosen: SurfaceOptions = SurfaceOptions(),
+    quiet: Quiet = False,
 ) -> None:
     """Move unlocked singularities as little as need be until every holonomy defect vanishes.
 
@@ -27,14 +26,8 @@ def make_valid(
         A case or the name of a gallery case.
     output
         The new case file.
-    component
-        Of a surface in several pieces: largest or a number (0 is the largest).
-    repair
-        Also mend what cannot be mended without changing the surface.
-    quiet
-        Show neither progress nor summary.
     """
-    found = chosen_case(case, component=component, repair=repair)
+    found = chosen.case(case)
     problem = Problem.from_case(found)
     surface = problem.surface
     end = watch(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from crossview.cli.options import Flag, Output, chosen_case
+from crossview.cli.options import FeatureOptions, Output, Quiet
 from crossview.cli.terminal import say, watch
 from crossview.workflow.problem import Problem
 from solvers.fields.natural import ALIGNMENTS, CURVATURE_WEIGHT, METHODS, natural_singularities
@@ -20,10 +20,8 @@ def natural(
     seed: int = 0,
     alignment: str = ALIGNMENTS[0],
     weight: float = CURVATURE_WEIGHT,
-    features: float | None = None,
-    component: str | None = None,
-    repair: Flag = False,
-    quiet: Flag = False,
+    chosen: FeatureOptions = FeatureOptions(),
+    quiet: Quiet = False,
 ) -> None:
     """Place the singularities of a smooth cross-field aligned with boundaries and features.
 
@@ -41,17 +39,8 @@ def natural(
         smoothness, or curvature: also draw the crosses towards the principal directions.
     weight
         How strongly the curvature draws.
-    features
-        Degrees: edges over which the surface bends by more are to be followed, as are the curves
-        that the case marks.
-    component
-        Of a surface in several pieces: largest or a number (0 is the largest).
-    repair
-        Also mend what cannot be mended without changing the surface.
-    quiet
-        Show neither progress nor summary.
     """
-    found = chosen_case(surface, component=component, repair=repair, features=features)
+    found = chosen.case(surface)
     problem = replace(Problem.from_case(found), singularities=(), corners=None)
     computation = natural_singularities(
         problem.surface,

@@ -1,80 +1,152 @@
-"""What several commands take: their options, and the case they start from."""
+"""What several commands take: their options, each with its help, and what they choose."""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Annotated, Any
 
-from cyclopts import Parameter
+from cyclopts import Group, Parameter
 
 from crossview.cases.gallery import find_case
-from crossview.cases.model import Case, check_method
+from crossview.cases.json_values import JsonField
+from crossview.cases.model import Case, Options, PlacedFeatures, check_method
+from crossview.cases.records import keys_of
 from crossview.workflow.quads import MeshOptions
 from solvers.errors import CrossviewError
 
 Output = Annotated[str, Parameter(name=["--output", "-o"])]
-Flag = Annotated[bool, Parameter(negative="")]
-Json = Annotated[bool, Parameter(name="--json", negative="")]
+Flag = Annotated[bool, Parameter(negative="", show_default=False)]
+Json = Annotated[bool, Parameter(name="--json", negative="", show_default=False)]
+Quiet = Annotated[
+    bool,
+    Parameter(negative="", show_default=False, help="Show neither progress nor summary."),
+]
+
+CASE = Group("Surface and field", sort_key=1)
+QUADS = Group("Quads", sort_key=2)
 
 
-def chosen_case(
-    target: str,
-    method: str | None = None,
-    component: str | None = None,
-    repair: bool = False,
-    features: float | None = None,
-) -> Case:
-    """The case that `target` names, with what the command line says instead.
+@Parameter(name="*", group=CASE)
+@dataclass(frozen=True)
+class SurfaceOptions:
+    """Which surface is taken of a file.
 
-    Raises
-    ------
-    CrossviewError
-        There is no such case, or an option is wrong.
+    Parameters
+    ----------
+    component
+        Of a surface in several pieces: largest, a number (0 is the largest) or, for info and
+        solve, all.
+    repair
+        Also mend what cannot be mended without changing the surface.
     """
-    case = find_case(target)
-    changes: dict[str, Any] = {"repair": True} if repair else {}
-    if component is not None:
-        changes["component"] = _component(component)
-    case = replace(case, options=replace(case.options, **changes))
-    if features is not None:
-        if not 0 < features <= 180:
-            raise CrossviewError(
-                f"features cannot be sharper than {features:g} degrees",
-                "--features",
-                "an angle above 0 and at most 180",
-            )
-        case = replace(case, features=replace(case.features, dihedral_degrees=features))
-    return case if method is None else replace(case, method=check_method(method, "--method"))
+
+    component: str | None = None
+    repair: Flag = False
+
+    def case(self, target: str) -> Case:
+        """Return the case that `target` names, with what these options say instead.
+
+        Raises
+        ------
+        CrossviewError
+            There is no such case, or an option is wrong.
+        """
+        case = find_case(target)
+        changes: dict[str, Any] = {"repair": True} if self.repair else {}
+        if self.component is not None:
+            given = int(self.component) if self.component.isdecimal() else self.component
+            changes["component"] = _checked(Options, "component", given)
+        return replace(case, options=replace(case.options, **changes))
 
 
-def mesh_options(
-    quads: bool,
-    edge_length: float | None,
-    target_quads: int | None,
-    collapse: bool,
-    advice: str,
-) -> MeshOptions | None:
-    """What the command line says about quads; None if it wants none.
+@Parameter(name="*", group=CASE)
+@dataclass(frozen=True)
+class FeatureOptions(SurfaceOptions):
+    """The same, and which edges are features.
 
-    Raises
-    ------
-    CrossviewError
-        It wants none and says how they should be, or something impossible.
+    Parameters
+    ----------
+    features
+        Degrees: edges over which the surface bends by more are to be followed, as are the curves
+        that the case marks.
     """
-    if quads:
-        return MeshOptions(edge_length, target_quads, collapse)
-    given = {"edge-length": edge_length, "target-quads": target_quads, "collapse": collapse or None}
-    for name, value in given.items():
-        if value is not None:
-            raise CrossviewError(f"--{name} is about quads", "", advice)
-    return None
+
+    features: float | None = None
+
+    def case(self, target: str) -> Case:
+        """Return the case that `target` names, with what these options say instead."""
+        case = super().case(target)
+        if self.features is None:
+            return case
+        degrees = _checked(PlacedFeatures, "dihedral_degrees", self.features, "features")
+        return replace(case, features=replace(case.features, dihedral_degrees=degrees))
 
 
-def _component(text: str) -> int | str:
-    if text in ("largest", "all"):
-        return text
-    if text.isdecimal():
-        return int(text)
-    raise CrossviewError(
-        f'unknown component "{text}"', "--component", "largest, all or a number (0 is the largest)"
-    )
+@Parameter(name="*", group=CASE)
+@dataclass(frozen=True)
+class CaseOptions(FeatureOptions):
+    """The same, and how the field is solved.
+
+    Parameters
+    ----------
+    method
+        isotropic, aligned, anisotropic or alternating, instead of the case's.
+    """
+
+    method: str | None = None
+
+    def case(self, target: str) -> Case:
+        """Return the case that `target` names, with what these options say instead."""
+        case = super().case(target)
+        if self.method is None:
+            return case
+        return replace(case, method=check_method(self.method, "--method"))
+
+
+@Parameter(name="*", group=QUADS)
+@dataclass(frozen=True)
+class QuadOptions:
+    """How fine the quads are.
+
+    Parameters
+    ----------
+    edge_length
+        Mean length of the quads' edges.
+    target_quads
+        About how many quads; 5000 if neither is given.
+    collapse
+        Let parts of the layout vanish where that gives a coarser mesh.
+    """
+
+    edge_length: float | None = None
+    target_quads: int | None = None
+    collapse: Flag = False
+
+    def wanted(self, quads: bool, advice: str) -> MeshOptions | None:
+        """Return how the quads are to be; None if none are wanted.
+
+        Parameters
+        ----------
+        quads : bool
+            Whether they are.
+        advice : str
+            What to write on the command line where they are meant to be.
+
+        Raises
+        ------
+        CrossviewError
+            None are wanted and it is said how they should be, or something is impossible.
+        """
+        if quads:
+            return MeshOptions(self.edge_length, self.target_quads, self.collapse)
+        for name, given in vars(self).items():
+            if given not in (None, False):
+                raise CrossviewError(f"--{name.replace('_', '-')} is about quads", "", advice)
+        return None
+
+
+def _checked(kind: type, key: str, value: object, option: str = "") -> Any:
+    """Return a value of the command line, checked as the same key of a case file is."""
+    entry = JsonField(value, f"--{option or key}")
+    return keys_of(kind)[key].shape.read(entry, Path())

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import re
 from collections.abc import Generator
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -12,7 +13,7 @@ from cyclopts import Parameter
 
 from crossview.cases import gallery as cases
 from crossview.cases.model import Case
-from crossview.cli.options import Flag, Output, chosen_case, mesh_options
+from crossview.cli.options import CaseOptions, Flag, Output, QuadOptions, Quiet
 from crossview.cli.terminal import say, watch
 from crossview.io.staged_files import staged
 from crossview.workflow.layout import layout, layout_soon
@@ -35,19 +36,14 @@ def render(
     /,
     *,
     output: Output,
-    method: str | None = None,
-    features: float | None = None,
+    chosen: CaseOptions = CaseOptions(),
     layers: str | None = None,
     size: str = "1600x1200",
     scale: float = 1.0,
     transparent: Flag = False,
     camera: str = "auto",
-    edge_length: float | None = None,
-    target_quads: int | None = None,
-    collapse: Flag = False,
-    component: str | None = None,
-    repair: Flag = False,
-    quiet: Flag = False,
+    sizes: QuadOptions = QuadOptions(),
+    quiet: Quiet = False,
 ) -> None:
     """Solve a case and draw it to a picture.
 
@@ -57,11 +53,6 @@ def render(
         A case, a surface without singularities, or the name of a gallery case.
     output
         The picture: .png, or .svg or .pdf with curves and crosses as vectors.
-    method
-        isotropic, aligned, anisotropic or alternating, instead of the case's.
-    features
-        Degrees: edges over which the surface bends by more are to be followed, as are the curves
-        that the case marks.
     layers
         What to draw, such as H,crosses,singularities,cut; by default what the window shows. layout
         draws the patches, quads the quad mesh.
@@ -73,30 +64,16 @@ def render(
         Leave the background out.
     camera
         auto, iso, xy, xz, yz, or position, focus and up as nine numbers with commas.
-    edge_length
-        For the layer quads: mean length of their edges.
-    target_quads
-        About how many quads; 5000 if neither is given.
-    collapse
-        Let parts of the layout vanish where that gives a coarser mesh.
-    component
-        Of a surface in several pieces: largest, or a number (0 is the largest).
-    repair
-        Also mend what cannot be mended without changing the surface.
-    quiet
-        Show neither progress nor summary.
     """
     from crossview.export.figures import check, shows_curves
     from crossview.export.figures import render as draw
 
-    whole = chosen_case(case, method, repair=repair, features=features)
-    found = chosen_case(case, method, component, repair, features)
+    whole = replace(chosen, component=None).case(case)
+    found = chosen.case(case)
     if found.options.component == "all":
         raise CrossviewError("a picture shows one component", "all", "name one with --component")
     shown = None if layers is None else [name.strip() for name in layers.split(",")]
-    wanted = mesh_options(
-        "quads" in (shown or ()), edge_length, target_quads, collapse, "draw --layers quads"
-    )
+    wanted = sizes.wanted("quads" in (shown or ()), "draw --layers quads")
     pixels, target = _size(size), Path(output)
     check(target, layers=shown, size=pixels, scale=scale, camera=camera)
 
@@ -149,7 +126,7 @@ def gallery(
     *names: str,
     output: Annotated[str | None, Parameter(name=["--output", "-o"])] = None,
     list_: Annotated[bool, Parameter(name="--list", negative="")] = False,
-    quiet: Flag = False,
+    quiet: Quiet = False,
 ) -> None:
     """Solve and draw gallery cases, each into a folder of its own with a report.
 
@@ -163,13 +140,11 @@ def gallery(
         Folder for the results.
     list_
         Only list the cases.
-    quiet
-        Show neither progress nor summary.
     """
     paths = {name: cases.path_of(name) for name in names or cases.names()}
     if list_:
         for name in paths:
-            say(f"{name:16} {chosen_case(str(paths[name])).title}".rstrip())
+            say(f"{name:16} {Case.load(paths[name]).title}".rstrip())
         return
     if output is None:
         raise CrossviewError("no folder for the results", "", "name one with -o, or --list")
@@ -179,7 +154,7 @@ def gallery(
     def work(
         name: str, directory: Path
     ) -> Generator[Progress, None, tuple[Solution, QuadLayout | None, QuadMesh | None]]:
-        (solution,) = yield from solve_case(chosen_case(str(paths[name])))
+        (solution,) = yield from solve_case(Case.load(paths[name]))
         made, quads = None, None
         with contextlib.suppress(LayoutError):  # the summary tells that the field is not valid
             solution, made, quads = yield from quads_of(solution, COARSE)

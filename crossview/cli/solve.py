@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Generator, Sequence
 from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
 
 from crossview.cases.model import Case
-from crossview.cli.options import Flag, Json, Output, chosen_case, mesh_options
+from crossview.cli.options import QUADS, CaseOptions, Flag, Json, Output, QuadOptions, Quiet
 from crossview.cli.terminal import say, say_json, watch
 from crossview.io.staged_files import staged
 from crossview.workflow.layout import layout_soon
@@ -25,16 +28,11 @@ def solve(
     /,
     *,
     output: Output,
-    method: str | None = None,
-    features: float | None = None,
-    component: str | None = None,
-    repair: Flag = False,
-    quads: Flag = False,
-    edge_length: float | None = None,
-    target_quads: int | None = None,
-    collapse: Flag = False,
-    formats: str | None = None,
-    quiet: Flag = False,
+    chosen: CaseOptions = CaseOptions(),
+    quads: Annotated[Flag, Parameter(group=QUADS)] = False,
+    sizes: QuadOptions = QuadOptions(),
+    formats: Annotated[str | None, Parameter(group=QUADS)] = None,
+    quiet: Quiet = False,
     as_json: Json = False,
 ) -> None:
     """Solve a case; write report.json and VTK files that ParaView opens.
@@ -44,38 +42,21 @@ def solve(
     case
         A case, a surface without singularities, or the name of a gallery case.
     output
-        Folder for the results: all of them or, after an error, none.
-    method
-        isotropic, aligned, anisotropic or alternating, instead of the case's.
-    features
-        Degrees: edges over which the surface bends by more are to be followed, as are the curves
-        that the case marks.
-    component
-        Of a surface in several pieces: largest, a number (0 is the largest), or all, which
-        makes a folder for each.
-    repair
-        Also mend what cannot be mended without changing the surface.
+        Folder for the results: all of them or, after an error, none. If all components are solved,
+        it has a folder for each.
     quads
         Also make the quad layout and a quad mesh, which need an aligned and integrable field.
-    edge_length
-        Mean length of the quads' edges.
-    target_quads
-        About how many quads; 5000 if neither is given.
-    collapse
-        Let parts of the layout vanish where that gives a coarser mesh.
     formats
         Of the quads: some of obj, vtk, vtu, ply, gltf, glb and msh (Gmsh, with named boundaries),
         such as vtk,msh; vtk,obj if not given.
-    quiet
-        Show neither progress nor summary.
     as_json
         Print the report, or a list of them for all components.
     """
     from crossview.export.report import quads_summary, report, summary
 
-    wanted = mesh_options(quads, edge_length, target_quads, collapse, "add --quads")
+    wanted = sizes.wanted(quads, "add --quads")
     kinds = _formats(formats, quads)
-    found = chosen_case(case, method, component, repair, features)
+    found = chosen.case(case)
     with staged(output) as staging:
         results = watch(_solved_into(staging, found, wanted, kinds), quiet)
     if as_json:

@@ -136,7 +136,7 @@ def test_a_wrong_case_is_refused(
         (["missing.obj"], ["no such file (missing.obj)"]),
         (["solve", "missing.json", "-o", "out"], ["No such file", "missing.json"]),
         (["solve", "torus", "-o", "out", "--method", "newton"], ["newton", "known: aligned, alt"]),
-        (["solve", "torus", "-o", "out", "--component", "big"], ['"big"', "largest, all or"]),
+        (["solve", "torus", "-o", "out", "--component", "big"], ['"big"', '"largest", "all" or']),
         (["solve", "torus", "-o", "file/out"], ["cannot write, Not a directory", "file/out"]),
         (["solve", "torus", "-o", "file"], ["cannot write, Not a directory", "file"]),
         (["info", "picture.png"], ["picture.png"]),
