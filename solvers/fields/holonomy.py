@@ -50,9 +50,9 @@ class Holonomy:
     >>> three = Singularity(surface.closest_point([0.8, 0.0, 0.0]), 3)
     >>> for place in ([0.5, 0.0, 0.0], [0.0, 0.5, 0.0], [-0.5, 0.0, 0.0]):
     ...     five = Singularity(surface.closest_point(place), 5)
-    ...     print(np.round(np.degrees(holonomy.defects([three, five])), 6) + 0.0)
+    ...     print(np.degrees(np.abs(holonomy.defects([three, five]))).round(6))
     [0.]
-    [-22.5]
+    [22.5]
     [45.]
     """
 
