@@ -165,3 +165,16 @@ class SolveError(CrossviewError):
     ...     print(error.what)
     the linear system could not be solved
     """
+
+
+def listed(elements: npt.NDArray[np.int64], limit: int = 5) -> str:
+    """Return the first few of `elements` as text."""
+    shown = ["-".join(str(v) for v in np.atleast_1d(element)) for element in elements[:limit]]
+    more = f" and {len(elements) - limit} more" if len(elements) > limit else ""
+    return ", ".join(shown) + more
+
+
+def counted(number: int, noun: str) -> str:
+    """Return the number with its noun: "1 vertex", "2 vertices"."""
+    plural = noun.removesuffix("vertex") + "vertices" if noun.endswith("vertex") else f"{noun}s"
+    return f"{number} {noun if number == 1 else plural}"

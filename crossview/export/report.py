@@ -23,9 +23,9 @@ from crossview.export.vtp import (
 from crossview.io.staged_files import staged
 from crossview.workflow.layout import misaligned_boundaries, separatrices
 from crossview.workflow.pipeline import Solution
+from solvers.errors import counted
 from solvers.layouts.layout import QuadLayout
 from solvers.quads.quadmesh import QuadMesh
-from solvers.surface.validation import counted
 
 REPORT = "report.json"
 FORMATS = ("vtk", "obj")

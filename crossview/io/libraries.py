@@ -17,8 +17,7 @@ from vtkmodules.vtkIOLegacy import vtkDataSetReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
 
 from crossview.io.polygons import Polygons
-from solvers.errors import CrossviewError
-from solvers.surface.validation import counted
+from solvers.errors import CrossviewError, counted
 
 CORNERS = {"triangle": 3, "triangle6": 3, "quad": 4, "quad8": 4, "quad9": 4}
 """Corners of meshio's surface cells; their further nodes lie inside edges."""

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from solvers.errors import SurfaceError
+from solvers.errors import SurfaceError, counted, listed
 from solvers.surface.triangulation import FloatArray, IntArray
-from solvers.surface.validation import counted, listed
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,9 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
+from solvers.errors import counted
 from solvers.surface.triangulation import BoolArray, FloatArray, IntArray, next_halfedge
-from solvers.surface.validation import HalfedgePairs, counted, degenerate_faces
+from solvers.surface.validation import HalfedgePairs, degenerate_faces
 
 COINCIDENT = 1e-6
 """Distance of vertices that count as one, in diagonals of the bounding box.

@@ -6,9 +6,9 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from solvers.errors import SurfaceError
+from solvers.errors import SurfaceError, counted, listed
 from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
-from solvers.surface.validation import HalfedgePairs, counted, listed
+from solvers.surface.validation import HalfedgePairs
 
 
 def orient(points: FloatArray, triangles: IntArray) -> tuple[FloatArray, IntArray, str]:

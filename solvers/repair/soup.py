@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from solvers.errors import SurfaceError
+from solvers.errors import SurfaceError, counted
 from solvers.repair.flat_triangles import mend_flat_triangles, merge_coincident
 from solvers.repair.orientation import orient
 from solvers.surface.triangulation import FloatArray, IntArray
@@ -16,7 +16,6 @@ from solvers.surface.validation import (
     HalfedgePairs,
     array_problems,
     as_arrays,
-    counted,
     duplicate_faces,
     face_components,
     fan_labels,

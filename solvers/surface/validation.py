@@ -9,7 +9,7 @@ import numpy.typing as npt
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from solvers.errors import SurfaceError
+from solvers.errors import SurfaceError, counted, listed
 from solvers.number_checks import LARGEST, real_numbers, whole_numbers
 from solvers.remedies import RepairSurface, TakeLargest
 from solvers.surface.triangulation import FloatArray, IntArray, next_halfedge
@@ -109,19 +109,6 @@ def fan_labels(twin: IntArray) -> tuple[int, IntArray]:
     graph = coo_array((np.ones(len(h), dtype=np.int8), (h, around)), shape=(len(twin),) * 2)
     count, label = connected_components(graph, directed=False)
     return int(count), label.astype(np.int64)
-
-
-def listed(elements: IntArray, limit: int = 5) -> str:
-    """Return the first few of `elements` as text."""
-    shown = ["-".join(str(v) for v in np.atleast_1d(element)) for element in elements[:limit]]
-    more = f" and {len(elements) - limit} more" if len(elements) > limit else ""
-    return ", ".join(shown) + more
-
-
-def counted(number: int, noun: str) -> str:
-    """Return the number with its noun: "1 vertex", "2 vertices"."""
-    plural = noun.removesuffix("vertex") + "vertices" if noun.endswith("vertex") else f"{noun}s"
-    return f"{number} {noun if number == 1 else plural}"
 
 
 def as_arrays(vertices: npt.ArrayLike, faces: npt.ArrayLike) -> tuple[FloatArray, IntArray]:
