@@ -24,7 +24,7 @@ EXPORTED: dict[int, tuple[str, Callable[..., Any]]] = {
     id(thing): (f"{room.__name__}.{name}", thing)
     for room in ROOMS
     for name in room.__all__
-    if callable(thing := getattr(room, name))
+    if isinstance(thing := getattr(room, name), FunctionType | type)
 }
 """Each exported function and class once, with the shortest name to import it by."""
 

@@ -7,7 +7,12 @@ from dataclasses import replace
 from crossview.cli.options import FeatureOptions, Output, Quiet
 from crossview.cli.terminal import say, watch
 from crossview.workflow.problem import Problem
-from solvers.fields.natural import ALIGNMENTS, CURVATURE_WEIGHT, METHODS, natural_singularities
+from solvers.fields.natural import (
+    CURVATURE_WEIGHT,
+    NATURAL_ALIGNMENTS,
+    NATURAL_METHODS,
+    natural_singularities,
+)
 from solvers.singularities.budget import require_budget
 
 
@@ -16,9 +21,9 @@ def natural(
     /,
     *,
     output: Output,
-    method: str = METHODS[0],
+    method: str = NATURAL_METHODS[0],
     seed: int = 0,
-    alignment: str = ALIGNMENTS[0],
+    alignment: str = NATURAL_ALIGNMENTS[0],
     weight: float = CURVATURE_WEIGHT,
     chosen: FeatureOptions = FeatureOptions(),
     quiet: Quiet = False,

@@ -13,7 +13,7 @@ from crossview.session.live import LiveBase, with_directions
 from crossview.session.methods import DRAWN_EVERY
 from solvers.errors import CrossviewError
 from solvers.fields.crossfield import CrossField
-from solvers.fields.natural import ALIGNMENTS, CrossesStep, natural_singularities
+from solvers.fields.natural import NATURAL_ALIGNMENTS, CrossesStep, natural_singularities
 from solvers.progress import Progress, relayed
 from solvers.singularities.budget import Singularity
 from solvers.surface.triangulation import FloatArray
@@ -81,7 +81,7 @@ def move_to_validity(
 
 
 def place_natural(
-    document: Document, method: str, alignment: str = ALIGNMENTS[0]
+    document: Document, method: str, alignment: str = NATURAL_ALIGNMENTS[0]
 ) -> Generator[Progress, None, Command]:
     """Find the singularities of a smooth cross-field, with automatic corners as it has.
 

@@ -8,9 +8,9 @@ from dataclasses import replace
 from crossview.workflow.problem import Problem
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.fields.natural import (
-    ALIGNMENTS,
     CURVATURE_WEIGHT,
-    METHODS,
+    NATURAL_ALIGNMENTS,
+    NATURAL_METHODS,
     natural_singularities,
 )
 from solvers.progress import Progress
@@ -24,10 +24,10 @@ Placing = Generator[Progress, None, Problem]
 
 def natural(
     problem: Problem,
-    method: str = METHODS[0],
+    method: str = NATURAL_METHODS[0],
     seed: int = 0,
     *,
-    alignment: str = ALIGNMENTS[0],
+    alignment: str = NATURAL_ALIGNMENTS[0],
     weight: float = CURVATURE_WEIGHT,
 ) -> Placing:
     """Put the singularities of a smooth cross-field in place of a problem's, with its own corners.

@@ -8,11 +8,21 @@ from solvers.fields.crossfield import Convergence, CrossField
 from solvers.fields.holonomy import Holonomy
 from solvers.fields.integrable import FieldStep, alternating_field, anisotropic_field
 from solvers.fields.isotropic import IsotropicSolver
-from solvers.fields.natural import CrossesStep, natural_singularities
+from solvers.fields.natural import (
+    CURVATURE_WEIGHT,
+    NATURAL_ALIGNMENTS,
+    NATURAL_METHODS,
+    CrossesStep,
+    natural_singularities,
+)
 from solvers.fields.prepared import PreparedSurface, prepare
+from solvers.fields.sizes import size_map
 from solvers.fields.verdict import Verdict, judge
 
 __all__ = [
+    "CURVATURE_WEIGHT",
+    "NATURAL_ALIGNMENTS",
+    "NATURAL_METHODS",
     "AlignedField",
     "Condition",
     "Convergence",
@@ -30,4 +40,5 @@ __all__ = [
     "judge",
     "natural_singularities",
     "prepare",
+    "size_map",
 ]

@@ -37,10 +37,10 @@ from solvers.surface.trisurface import TriSurface
 
 ComplexArray = npt.NDArray[np.complex128]
 
-METHODS = ("mbo", "ginzburg-landau", "globally-optimal")
+NATURAL_METHODS = ("mbo", "ginzburg-landau", "globally-optimal")
 """Names of the ways to smooth a cross-field."""
 
-ALIGNMENTS = ("smoothness", "curvature")
+NATURAL_ALIGNMENTS = ("smoothness", "curvature")
 """Names of what the crosses are drawn towards."""
 
 CURVATURE_WEIGHT = 200.0
@@ -174,11 +174,13 @@ def natural_singularities(
     >>> run(natural_singularities(square(n=8)))  # its corners are all it needs
     ()
     """
-    if method not in METHODS:
-        raise CrossviewError(f'unknown method "{method}"', advice=f"one of {', '.join(METHODS)}")
-    if alignment not in ALIGNMENTS:
+    if method not in NATURAL_METHODS:
         raise CrossviewError(
-            f'unknown alignment "{alignment}"', advice=f"one of {', '.join(ALIGNMENTS)}"
+            f'unknown method "{method}"', advice=f"one of {', '.join(NATURAL_METHODS)}"
+        )
+    if alignment not in NATURAL_ALIGNMENTS:
+        raise CrossviewError(
+            f'unknown alignment "{alignment}"', advice=f"one of {', '.join(NATURAL_ALIGNMENTS)}"
         )
     weight = real_number("the weight of the curvature", weight, 0)
     seed = whole_number("the seed", seed, 0)

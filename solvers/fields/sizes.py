@@ -34,6 +34,7 @@ def size_map(
     Returns
     -------
     (n,) or (n, 2) float array
+        The same sizes.
 
     Raises
     ------
@@ -42,7 +43,7 @@ def size_map(
 
     Examples
     --------
-    >>> from solvers.fields.sizes import size_map
+    >>> from solvers.fields import size_map
     >>> size_map([1, 2, 0.5], 3).tolist()
     [1.0, 2.0, 0.5]
     >>> size_map([1, -2, 0.5], 3)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from solvers.repair.flat_triangles import merge_coincident
 from solvers.repair.soup import Repaired, repair, repair_each
 
-__all__ = ["Repaired", "repair", "repair_each"]
+__all__ = ["Repaired", "merge_coincident", "repair", "repair_each"]

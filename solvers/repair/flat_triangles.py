@@ -39,6 +39,17 @@ def merge_coincident(points: FloatArray, triangles: IntArray) -> tuple[FloatArra
         The first vertex of each place is kept.
     note : str
         What was done; empty for nothing.
+
+    Examples
+    --------
+    Two triangles that share a side, each with vertices of its own:
+
+    >>> import numpy as np
+    >>> from solvers.repair import merge_coincident
+    >>> points = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
+    >>> points, triangles, note = merge_coincident(points, np.array([[0, 1, 2], [3, 4, 5]]))
+    >>> triangles.tolist(), note
+    ([[0, 1, 2], [1, 3, 2]], 'merged 2 coincident vertices')
     """
     places, number = np.unique(points, axis=0, return_inverse=True)
     reach = COINCIDENT * float(np.linalg.norm(np.ptp(points, axis=0)))

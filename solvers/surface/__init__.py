@@ -9,19 +9,24 @@ from solvers.surface.geodesics import straightest
 from solvers.surface.homology import HandleLoops, handle_loops
 from solvers.surface.points import SurfacePoint
 from solvers.surface.refinement import Refinement, refine_at, refine_everywhere
-from solvers.surface.triangulation import IntrinsicTriangulation
-from solvers.surface.trisurface import TriSurface
-from solvers.surface.validation import problems
+from solvers.surface.triangulation import QUARTER, FloatArray, IntArray, IntrinsicTriangulation
+from solvers.surface.trisurface import TriSurface, barycentric
+from solvers.surface.validation import array_problems, problems
 
 __all__ = [
+    "QUARTER",
     "DelaunayTriangulation",
     "EdgePaths",
+    "FloatArray",
     "HandleLoops",
+    "IntArray",
     "IntrinsicTriangulation",
     "Located",
     "Refinement",
     "SurfacePoint",
     "TriSurface",
+    "array_problems",
+    "barycentric",
     "cut_graph",
     "handle_loops",
     "problems",

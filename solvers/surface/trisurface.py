@@ -315,6 +315,14 @@ def barycentric(triangles: FloatArray, position: FloatArray) -> FloatArray:
     -------
     (k, 3) float array
         Weights with sum 1; negative where the foot lies outside.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solvers.surface import barycentric
+    >>> triangle = np.array([[[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]])
+    >>> barycentric(triangle, np.array([0.25, 0.5, 7.0])).tolist()
+    [[0.25, 0.25, 0.5]]
     """
     u = triangles[:, 1] - triangles[:, 0]
     v = triangles[:, 2] - triangles[:, 0]

@@ -133,7 +133,28 @@ def as_arrays(vertices: npt.ArrayLike, faces: npt.ArrayLike) -> tuple[FloatArray
 
 
 def array_problems(vertices: FloatArray, faces: IntArray) -> Iterator[SurfaceError]:
-    """Yield what keeps the arrays from being coordinates and vertex numbers at all."""
+    """Yield what keeps the arrays from being coordinates and vertex numbers at all.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float array
+        Coordinates.
+    faces : (m, 3) int array
+        Corner vertices.
+
+    Yields
+    ------
+    SurfaceError
+        The first is the one to mend first.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solvers.surface import array_problems
+    >>> for problem in array_problems(np.eye(3), np.array([[0, 1, 5]])):
+    ...     print(problem.what, problem.elements.tolist())
+    triangles name vertices outside 0..2 [0]
+    """
     if vertices.ndim != 2 or vertices.shape[1] != 3 or faces.ndim != 2 or faces.shape[1] != 3:
         yield SurfaceError(
             "vertices and faces must have three columns",

@@ -13,7 +13,7 @@ from crossview.session.history import History
 from crossview.session.live import LiveBase
 from crossview.session.methods import Iterate, MethodSolver
 from crossview.session.moving import NATURAL_LABELS, Moving, move_to_validity, place_natural
-from solvers.fields.natural import METHODS as NATURAL_METHODS
+from solvers.fields.natural import NATURAL_METHODS
 from solvers.progress import run
 
 

@@ -6,7 +6,7 @@ import pytest
 from solvers.errors import CrossviewError
 from solvers.features.edges import Features
 from solvers.features.sharp_edges import sharp_edges
-from solvers.fields.natural import METHODS, CrossesStep, natural_singularities
+from solvers.fields.natural import NATURAL_METHODS, CrossesStep, natural_singularities
 from solvers.fields.principal import principal_crosses
 from solvers.primitives import BUILTIN
 from solvers.progress import Progress, relayed, run
@@ -16,7 +16,7 @@ from solvers.surface.trisurface import TriSurface
 from tests.solvers.suite import SURFACES
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", NATURAL_METHODS)
 @pytest.mark.parametrize("name", SURFACES)
 def test_indices_sum_to_the_budget(name: str, method: str) -> None:
     surface = SURFACES[name]()
@@ -28,7 +28,7 @@ def test_indices_sum_to_the_budget(name: str, method: str) -> None:
         assert np.linalg.norm(positions[:, None] - boundary, axis=2).min() > 0
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", NATURAL_METHODS)
 @pytest.mark.parametrize("name", ["square", "annulus", "cylinder"])
 def test_no_singularity_where_none_is_needed(name: str, method: str) -> None:
     assert run(natural_singularities(SURFACES[name](), method)) == ()
@@ -99,7 +99,7 @@ def test_nothing_draws_where_both_curvatures_agree(name: str) -> None:
     assert np.abs(principal_crosses(BUILTIN[name]())).max() < 0.1
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", NATURAL_METHODS)
 def test_crosses_are_drawn_along_curvature(method: str) -> None:
     surface = SURFACES["torus"]()
     seen: list[CrossesStep] = []
@@ -118,7 +118,7 @@ def test_a_cone_of_features_gathers_singularities_at_its_corners() -> None:
     sphere = BUILTIN["cube_sphere"](n=12)
     cube = TriSurface(sphere.vertices / np.abs(sphere.vertices).max(axis=1)[:, None], sphere.faces)
     features = Features(cube, sharp_edges(cube, 40))
-    for method in METHODS:
+    for method in NATURAL_METHODS:
         found = run(natural_singularities(cube, method, features=features))
         places = cube.positions([s.point for s in found])
         assert [s.valence for s in found] == [3] * 8
