@@ -140,7 +140,7 @@ def _defects(solution: Solution) -> str:
     if solution.valid:
         return f"{defects.size} holonomy defects below {tolerance:g} degrees"
     worst = solution.solver.holonomy.conditions[int(defects.argmax())]
-    off = int((defects >= tolerance).sum())
+    off = int(solution.limits.missed(solution.holonomy_defects).sum())
     return (
         f"{off} of {defects.size} holonomy defects not below {tolerance:g} degrees, "
         f"the worst {defects.max():.3f} degrees ({worst.label})"

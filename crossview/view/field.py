@@ -13,6 +13,7 @@ from crossview.view.scene_view import SceneView
 from crossview.view.values import Marker
 from solvers.features.edges import Features
 from solvers.fields.crossfield import CrossField
+from solvers.fields.verdict import Limits
 
 
 def field_view(field: CrossField, cut_graph: IntArray | None = None, **others: Any) -> SceneView:
@@ -65,7 +66,7 @@ def feature_lines(
     """
     lines: dict[str, IntArray] = {"features": features.ends}
     if field is not None and len(features):
-        off = np.abs(np.degrees(field.feature_misalignment)) > tolerance_degrees
+        off = Limits(np.radians(tolerance_degrees)).missed(field.feature_misalignment)
         lines["missed"] = features.ends[off[features.curve_of]]
     return lines
 

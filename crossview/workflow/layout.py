@@ -13,8 +13,7 @@ from solvers.layouts.errors import LayoutError
 from solvers.layouts.layout import QuadLayout, quad_layout
 from solvers.layouts.separatrices import Separatrices
 from solvers.progress import Progress
-from solvers.remedies import ANISOTROPIC, MAKE_VALID, Remedy
-from solvers.surface.triangulation import FloatArray, IntArray
+from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
 
 SOON = 50_000
 """Triangles up to which a layout takes seconds at most."""
@@ -31,7 +30,7 @@ def layout(solution: Solution) -> Generator[Progress, None, QuadLayout]:
     """
     _require_possible(solution)
     yield Progress("aligning with the boundaries", 0.0)
-    return (yield from quad_layout(_integrated(solution)))
+    return (yield from quad_layout(_integrated(solution), solution.verdict))
 
 
 def layout_soon(solution: Solution) -> Generator[Progress, None, QuadLayout | None]:
@@ -59,32 +58,31 @@ def misaligned_boundaries(solution: Solution) -> tuple[IntArray, FloatArray]:
     places : (k, 3) float array
         A point on each, for a mark.
     """
-    tolerance = np.radians(solution.problem.options.tolerance_degrees)
-    loops = np.flatnonzero(np.abs(solution.field.boundary_misalignment) > tolerance)
+    loops = np.flatnonzero(solution.limits.missed(solution.field.boundary_misalignment))
     surface = solution.surface
     first = np.array([surface.boundary_loops[i][0] for i in loops], dtype=np.int64)
     return loops, surface.vertices[first].reshape(-1, 3)
 
 
 def _require_possible(solution: Solution) -> None:
-    """Refuse what no map can mend; the layout itself judges integrability."""
-    loops, _ = misaligned_boundaries(solution)
-    if len(loops):
-        misses = "a boundary" if len(loops) == 1 else f"{len(loops)} boundaries"
-        raise _misses(misses, solution.field.boundary_misalignment, MAKE_VALID, ANISOTROPIC)
-    if solution.verdict.status in ("impossible", "unknown"):
-        reason = solution.verdict.reason.rstrip(".")
-        raise LayoutError(f"no quads: {reason}", remedies=solution.verdict.remedies)
-    off = np.abs(np.degrees(solution.field.feature_misalignment))
-    missed = np.count_nonzero(off > solution.problem.options.tolerance_degrees)
-    if missed:
-        misses = "a feature curve" if missed == 1 else f"{missed} feature curves"
-        raise _misses(misses, solution.field.feature_misalignment, ANISOTROPIC)
+    """Refuse what the verdict refuses; boundaries and curves that the field misses are counted."""
+    verdict, field = solution.verdict, solution.field
+    if not verdict.refused:
+        return
+    boundaries = solution.limits.missed(field.boundary_misalignment)
+    curves = solution.limits.missed(field.feature_misalignment)
+    what = f"no quads: {verdict.reason.rstrip('.')}"
+    if verdict.status != "unknown" and boundaries.any():
+        what = _misses(boundaries, "a boundary", "boundaries", field.boundary_misalignment)
+    elif verdict.status == "suspect" and curves.any():
+        what = _misses(curves, "a feature curve", "feature curves", field.feature_misalignment)
+    raise LayoutError(what, remedies=verdict.remedies)
 
 
-def _misses(what: str, angles: FloatArray, *remedies: Remedy) -> LayoutError:
-    worst = np.degrees(np.abs(angles).max())
-    return LayoutError(f"the field misses {what}, by up to {worst:.3g} degrees", remedies=remedies)
+def _misses(missed: BoolArray, one: str, many: str, angles: FloatArray) -> str:
+    count, worst = np.count_nonzero(missed), np.degrees(np.abs(angles).max())
+    which = one if count == 1 else f"{count} {many}"
+    return f"the field misses {which}, by up to {worst:.3g} degrees"
 
 
 def _integrated(solution: Solution) -> IntegratedField:

@@ -11,7 +11,7 @@ from crossview.workflow.sizes import refined_sizes
 from solvers.fields.aligned import AlignedField, IntegratedField, aligned_field
 from solvers.fields.integrable import alternating_field, anisotropic_field
 from solvers.fields.prepared import PreparedSurface
-from solvers.fields.verdict import INTEGRABLE
+from solvers.fields.verdict import Limits
 from solvers.maps.seamless import seamless_map
 from solvers.progress import Progress, relayed
 from solvers.surface.triangulation import QUARTER, FloatArray
@@ -64,9 +64,9 @@ def growth_when_refined(
     return after / before if before > LEAST_ROUGHNESS else 1.0
 
 
-def inverted_triangles(integrated: IntegratedField | None) -> int | None:
-    """How many triangles are turned over in the map of a field; None if it has none."""
-    if integrated is None or integrated.field.energy > INTEGRABLE:
+def inverted_triangles(integrated: IntegratedField | None, limits: Limits) -> int | None:
+    """How many triangles are inverted in the map of a field; None if it has none."""
+    if integrated is None or integrated.field.energy > limits.energy:
         return None
     return len(seamless_map(integrated).flipped)
 

@@ -21,7 +21,7 @@ from solvers.fields.crossfield import CrossField
 from solvers.fields.integrable import FieldStep
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.fields.prepared import PreparedSurface, prepare
-from solvers.fields.verdict import judge
+from solvers.fields.verdict import Limits, judge
 from solvers.layouts.turning import joined_field, joining
 from solvers.progress import Progress, between
 from solvers.singularities.budget import require_budget
@@ -206,10 +206,21 @@ def _solution(
         defects = solver.holonomy.defects(prepared.singularities)
     with _timed(seconds, "verdict"):
         tolerance = float(np.radians(problem.options.tolerance_degrees))
-        inverted = inverted_triangles(integrated)
-        verdict = judge(field, inverted, growth, tolerance)
+        limits = Limits.on(solver.holonomy, tolerance)
+        inverted = inverted_triangles(integrated, limits)
+        verdict = judge(field, inverted, growth, limits)
     return Solution(
-        problem, prepared, solver, field, defects, seconds, integrated, verdict, growth, inverted
+        problem,
+        prepared,
+        solver,
+        field,
+        defects,
+        seconds,
+        integrated,
+        limits,
+        verdict,
+        growth,
+        inverted,
     )
 
 

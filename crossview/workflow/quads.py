@@ -17,13 +17,11 @@ from solvers.number_checks import real_number, whole_number
 from solvers.progress import Progress, between
 from solvers.quads.filling import fill
 from solvers.quads.quadmesh import QuadMesh
-from solvers.quads.quantization import quantize, quantize_to
+from solvers.quads.quantization import MOST_QUADS, quantize, quantize_to
 from solvers.quads.smoothing import smooth
 from solvers.surface.trisurface import TriSurface
 
 DEFAULT_QUADS = 5_000
-MOST_QUADS = 2_000_000
-"""More are not asked for but by a slip of the pen."""
 
 
 @dataclass(frozen=True)

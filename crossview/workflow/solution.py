@@ -6,15 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-import numpy as np
-
 from crossview.workflow.problem import Problem
 from solvers.features.edges import Features
 from solvers.fields.aligned import IntegratedField
 from solvers.fields.crossfield import CrossField
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.fields.prepared import PreparedSurface
-from solvers.fields.verdict import Verdict
+from solvers.fields.verdict import Limits, Verdict
 from solvers.layouts.separatrices import Separatrices, field_separatrices
 from solvers.singularities.budget import Singularity
 from solvers.surface.refinement import Refinement
@@ -43,6 +41,8 @@ class Solution:
         Time of each stage; next to nothing for one that was kept.
     integrated : IntegratedField, or None
         The field with its seamless map; None for the isotropic method.
+    limits : Limits
+        Within which the problem's options call a field valid.
     verdict : Verdict
         What the field is worth, and what helps.
     growth : float, or None
@@ -71,6 +71,7 @@ class Solution:
     holonomy_defects: FloatArray
     seconds: Mapping[str, float]
     integrated: IntegratedField | None
+    limits: Limits
     verdict: Verdict
     growth: float | None = None
     inverted: int | None = None
@@ -108,5 +109,4 @@ class Solution:
     @property
     def valid(self) -> bool:
         """Whether every holonomy defect is below the tolerance (the budget holds if solved)."""
-        tolerance = np.radians(self.problem.options.tolerance_degrees)
-        return bool((np.abs(self.holonomy_defects) < tolerance).all())
+        return not self.limits.missed(self.holonomy_defects).any()

@@ -17,7 +17,7 @@ from solvers.fields.natural import (
 )
 from solvers.fields.prepared import PreparedSurface, prepare
 from solvers.fields.sizes import size_map
-from solvers.fields.verdict import Verdict, judge
+from solvers.fields.verdict import Limits, Verdict, judge
 
 __all__ = [
     "CURVATURE_WEIGHT",
@@ -32,6 +32,7 @@ __all__ = [
     "Holonomy",
     "IntegratedField",
     "IsotropicSolver",
+    "Limits",
     "PreparedSurface",
     "Verdict",
     "aligned_field",

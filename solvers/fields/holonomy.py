@@ -192,6 +192,20 @@ class Holonomy:
         coefficients = np.linalg.solve(self.harmonic_energy, turns)
         return np.asarray(np.einsum("c,cmi->mi", coefficients, self._corner_values))
 
+    def aligned_energy(self, angle: float) -> float:
+        """Return the most E of a field that is aligned where the defects are up to an angle.
+
+        E^2 is that of the harmonic correction, r P^-1 r for defects r.
+
+        Parameters
+        ----------
+        angle : float
+            Of the defects, radians.
+        """
+        if not len(self.conditions):
+            return 0.0
+        return angle * float(np.sqrt(np.abs(np.linalg.inv(self.harmonic_energy)).sum()))
+
     @cached_property
     def harmonic_energy(self) -> FloatArray:
         """(c, c) products <eta_i, eta_j> = -<gamma_i, eta_j> of the harmonic 1-forms."""

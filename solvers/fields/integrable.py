@@ -13,16 +13,9 @@ from solvers.fields.alternating import alternate
 from solvers.fields.anisotropic import Iterate, MinimumNormNewton, NewtonStep
 from solvers.fields.crossfield import Convergence, CrossField
 from solvers.fields.sizes import size_map
+from solvers.fields.verdict import NEARLY_INTEGRABLE
 from solvers.progress import Progress, relayed
 from solvers.surface.triangulation import FloatArray
-
-LEFT_ALONE = 1e-3
-"""E at which the aligned field is the isotropic one, valid as far as the mesh can tell.
-
-Chosen. Defects of some hundredths of a degree are within the error of discretisation: a
-configuration made valid for the Delaunay operator has them for that of the surface's own
-triangles. Newton takes the E they leave; smoothing would only trade square quads for even sizes.
-"""
 
 HOMOTOPY_STAGES = (2, 4, 8)
 """Parts that the way from the isotropic to the aligned field is cut into, try after try. Chosen."""
@@ -117,7 +110,7 @@ def anisotropic_field(
     if (
         smooth
         and integrated.converged
-        and (sizes is not None or integrated.history[0] > LEFT_ALONE)
+        and (sizes is not None or integrated.history[0] > NEARLY_INTEGRABLE)
     ):
         smoothing = newton.slide(integrated.x, target)
         smoothed = yield from _shown(aligned, "anisotropic", smoothing, integrated.history)

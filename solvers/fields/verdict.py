@@ -9,10 +9,25 @@ import numpy as np
 
 from solvers.algebra.factorization import RESIDUAL_BOUND
 from solvers.fields.crossfield import CrossField
+from solvers.fields.holonomy import Holonomy
 from solvers.remedies import ANISOTROPIC, MAKE_VALID, Remedy, in_words
+from solvers.surface.triangulation import BoolArray, FloatArray
 
 INTEGRABLE = 1e-8
-"""E below which a field counts as integrable. Chosen, far above what solves leave, some 1e-14."""
+"""E below which nothing but rounding is left. Chosen, far above what solves leave, some 1e-14."""
+
+NEARLY_INTEGRABLE = 0.01
+"""E up to which an aligned field is the isotropic one as far as the mesh can tell.
+
+Chosen: a fifth of a degree of defect on an annulus. A configuration made valid for the Delaunay
+operator has defects of some hundredths of a degree for that of the surface's own triangles.
+"""
+
+CLOSED = 1e-6
+"""Largest angle, radians, by which neighbouring crosses fail to match for rounding alone.
+
+Chosen: real surfaces reach 1e-9.
+"""
 
 EXTREME_ASPECT = 3.0
 """|H2 - H1| beyond which quads are too stretched to trust: twenty to one. Chosen."""
@@ -25,6 +40,56 @@ Chosen between what was measured: 1.05 to 1.11 where a field is possible, 1.35 t
 
 
 @dataclass(frozen=True)
+class Limits:
+    """How far from perfect a field may be and be called valid; one for every judgement.
+
+    Parameters
+    ----------
+    angle : float, optional
+        Holonomy defects and misalignments are below, radians.
+    energy : float, optional
+        E is not above.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solvers.fields import Limits
+    >>> Limits(angle=0.1).missed(np.array([-0.2, 0.05])).tolist()
+    [True, False]
+    """
+
+    angle: float = float(np.radians(0.01))
+    energy: float = INTEGRABLE
+
+    @classmethod
+    def on(cls, holonomy: Holonomy, angle: float) -> Limits:
+        """Return the limits for a surface: E may be what defects below the angle leave.
+
+        Parameters
+        ----------
+        holonomy : Holonomy
+            Of the surface.
+        angle : float
+            As the parameter.
+        """
+        return cls(angle, max(INTEGRABLE, holonomy.aligned_energy(angle)))
+
+    def missed(self, angles: FloatArray) -> BoolArray:
+        """Return which angles (k,), radians, are not below the limit.
+
+        Parameters
+        ----------
+        angles : (k,) float array
+            Defects or misalignments, radians.
+        """
+        return np.asarray(~(np.abs(angles) < self.angle))
+
+
+STRICT = Limits()
+"""A hundredth of a degree, and E zero but for rounding."""
+
+
+@dataclass(frozen=True)
 class Verdict:
     """A judgement on a field.
 
@@ -34,20 +99,23 @@ class Verdict:
         The judgement; "unknown" where the field is not solved well enough to be judged.
     reason : str
         Why, in a sentence.
-    remedies : tuple of Remedy
+    remedies : tuple of Remedy, optional
         What may be done about it.
+    refused : bool, optional
+        Whether no layout is made of such a field; never of a valid one.
 
     Examples
     --------
     >>> from solvers.fields import Verdict
-    >>> verdict = Verdict("suspect", "1 triangle is turned over in the integrated map.")
+    >>> verdict = Verdict("suspect", "1 triangle is turned over in the seamless map.")
     >>> print(verdict)
-    1 triangle is turned over in the integrated map.
+    1 triangle is turned over in the seamless map.
     """
 
     status: Literal["valid", "suspect", "impossible", "unknown"]
     reason: str
     remedies: tuple[Remedy, ...] = ()
+    refused: bool = False
 
     def __str__(self) -> str:
         """Return the reason and what may be done, in a sentence."""
@@ -57,20 +125,23 @@ class Verdict:
 
 
 def judge(
-    field: CrossField, flips: int | None, growth: float | None = None, tolerance: float = 1.75e-4
+    field: CrossField,
+    inverted: int | None = None,
+    growth: float | None = None,
+    limits: Limits = STRICT,
 ) -> Verdict:
-    """Judge a field by topology, alignment, integrability, flips, aspect and growth.
+    """Judge a field by topology, closing, alignment, integrability, its map, aspect and growth.
 
     Parameters
     ----------
     field : CrossField
         What to judge.
-    flips : int or None
-        Triangles turned over in its seamless map; None where there is no such map.
+    inverted : int, optional
+        Triangles inverted in its seamless map; None where there is no such map.
     growth : float, optional
         int |grad s|^2 on a once refined mesh over that of the field.
-    tolerance : float, optional
-        Largest holonomy defect of a valid field, radians.
+    limits : Limits, optional
+        What is valid.
 
     Returns
     -------
@@ -88,11 +159,11 @@ def judge(
     >>> from solvers.singularities import Singularity
     >>> surface = torus(n=24)
     >>> solver = IsotropicSolver(surface)
-    >>> judge(solver.solve([]), flips=None).status  # aligned with itself all around
+    >>> judge(solver.solve([])).status  # aligned with itself all around
     'valid'
     >>> places = [surface.closest_point([x, 0.0, 0.0]) for x in (1.4, -0.6)]
-    >>> pair = [Singularity(place, valence) for place, valence in zip(places, (3, 5))]
-    >>> judge(solver.solve(pair), flips=None).status
+    >>> pair = [Singularity(places[0], valence=3), Singularity(places[1], valence=5)]
+    >>> judge(solver.solve(pair)).status
     'impossible'
     """
     indices = sorted(s.index for s in field.singularities)
@@ -102,38 +173,61 @@ def judge(
             "impossible",
             "No quadrangulation of a torus has one valence 3, one valence 5 and nothing else "
             "(Izmestiev et al. 2013).",
+            refused=True,
         )
     if not field.residual <= RESIDUAL_BOUND:
         return Verdict(
             "unknown",
             f"Not known: the linear system is solved to a residual of {field.residual:.1g} only; "
             "look for triangles without area.",
+            refused=True,
         )
-    worst = float(np.degrees(np.abs(field.defects).max(initial=0.0)))
-    if worst > np.degrees(tolerance):
+    if not field.max_closing_error <= CLOSED:
+        apart = np.degrees(field.max_closing_error)
         return Verdict(
-            "impossible",
-            f"No isotropic field is aligned: a holonomy defect is {worst:.3g} degrees.",
-            (MAKE_VALID, ANISOTROPIC),
+            "unknown",
+            f"Not known: crosses of two neighbouring triangles differ by {apart:.2g} degrees more "
+            "than quarter turns.",
+            refused=True,
         )
-    off = float(np.degrees(np.abs(field.feature_misalignment).max(initial=0.0)))
-    if off > np.degrees(tolerance):
-        return Verdict(
-            "suspect",
-            f"The field is {off:.3g} degrees off a feature curve.",
-            (ANISOTROPIC,),
-        )
-    return _judge_aligned(field, flips, growth)
+    return (
+        _judge_alignment(field, limits)
+        or _judge_integrability(field, limits)
+        or _judge_quality(field, inverted, growth)
+    )
 
 
-def _judge_aligned(field: CrossField, flips: int | None, growth: float | None) -> Verdict:
-    if field.energy > INTEGRABLE:
-        return Verdict(
-            "suspect", f"The field is aligned but not integrable: E = {field.energy:.2g}."
-        )
-    if flips:
-        which = "1 triangle is" if flips == 1 else f"{flips} triangles are"
-        return Verdict("suspect", f"{which} turned over in the integrated map.")
+def _judge_alignment(field: CrossField, limits: Limits) -> Verdict | None:
+    both = (MAKE_VALID, ANISOTROPIC)
+    if limits.missed(field.defects).any():
+        worst = _worst(field.defects)
+        reason = f"No isotropic field is aligned: a holonomy defect is {worst:.3g} degrees."
+        return Verdict("impossible", reason, both, refused=True)
+    if limits.missed(field.boundary_misalignment).any():
+        off = _worst(field.boundary_misalignment)
+        reason = f"The field is {off:.3g} degrees off a boundary."
+        return Verdict("suspect", reason, both, refused=True)
+    if limits.missed(field.feature_misalignment).any():
+        off = _worst(field.feature_misalignment)
+        reason = f"The field is {off:.3g} degrees off a feature curve."
+        return Verdict("suspect", reason, (ANISOTROPIC,), refused=True)
+    return None
+
+
+def _judge_integrability(field: CrossField, limits: Limits) -> Verdict | None:
+    if field.energy <= limits.energy:
+        return None
+    reason = f"The field is aligned but not integrable: E = {field.energy:.2g}."
+    if field.energy <= NEARLY_INTEGRABLE:
+        return Verdict("suspect", reason)
+    return Verdict("suspect", reason, (MAKE_VALID, ANISOTROPIC), refused=True)
+
+
+def _judge_quality(field: CrossField, inverted: int | None, growth: float | None) -> Verdict:
+    """Judge what is aligned and integrable."""
+    if inverted:
+        which = "1 triangle is" if inverted == 1 else f"{inverted} triangles are"
+        return Verdict("suspect", f"{which} turned over in the seamless map.")
     if field.max_log_aspect > EXTREME_ASPECT:
         ratio = np.exp(field.max_log_aspect)
         return Verdict("suspect", f"The two sizes differ by a factor of {ratio:.0f}.")
@@ -142,5 +236,10 @@ def _judge_aligned(field: CrossField, flips: int | None, growth: float | None) -
             "suspect",
             f"The aspect does not settle: int |grad s|^2 grows by {growth - 1:.0%} when refined.",
         )
-    mapped = "" if flips is None else ", and its map has no flip"
+    mapped = "" if inverted is None else ", and its map turns no triangle over"
     return Verdict("valid", f"The field is aligned and integrable{mapped}.")
+
+
+def _worst(angles: FloatArray) -> float:
+    """Return the largest of angles, degrees."""
+    return float(np.degrees(np.abs(angles).max()))

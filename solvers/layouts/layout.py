@@ -6,9 +6,8 @@ from collections.abc import Generator
 from dataclasses import dataclass
 from functools import cached_property
 
-import numpy as np
-
 from solvers.fields.aligned import IntegratedField
+from solvers.fields.verdict import Verdict, judge
 from solvers.layouts.arrangement import Arrangement
 from solvers.layouts.drawing import LONGEST, Drawing
 from solvers.layouts.errors import LayoutError
@@ -18,7 +17,6 @@ from solvers.layouts.patches import PatchMesh, sampled
 from solvers.layouts.separatrices import Separatrices
 from solvers.layouts.tmesh import TMesh
 from solvers.progress import Progress
-from solvers.remedies import ANISOTROPIC, MAKE_VALID
 from solvers.surface.triangulation import FloatArray
 from solvers.surface.trisurface import TriSurface
 
@@ -27,12 +25,6 @@ SHORT = 1.5
 
 JOININGS = 4
 """How often the map is fitted again for separatrices to meet nodes they nearly meet. Chosen."""
-
-MISALIGNED = 1e-4
-"""Angle between the cross and the boundary, radians, beyond which there is no layout. Chosen."""
-
-NOT_INTEGRABLE = 0.01
-"""E beyond which there is no layout. Chosen, for what aligned fields of valid places may have."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +100,9 @@ class QuadLayout:
         return self.limit_cycles == 0
 
 
-def quad_layout(integrated: IntegratedField) -> Generator[Progress, None, QuadLayout]:
+def quad_layout(
+    integrated: IntegratedField, verdict: Verdict | None = None
+) -> Generator[Progress, None, QuadLayout]:
     """Cut a surface into rectangles along the separatrices of a field.
 
     Boundaries that no separatrix reaches, and surfaces without any, get further curves.
@@ -116,7 +110,11 @@ def quad_layout(integrated: IntegratedField) -> Generator[Progress, None, QuadLa
     Parameters
     ----------
     integrated : IntegratedField
-        Aligned with the boundary and integrable.
+        Aligned with the boundary and integrable. Where nothing fixes the direction of its crosses,
+        `joined_field` turns them so that separatrices join.
+    verdict : Verdict, optional
+        On the field, or on that of the same configuration on other triangles; by default as
+        `judge` gives it.
 
     Returns
     -------
@@ -126,7 +124,7 @@ def quad_layout(integrated: IntegratedField) -> Generator[Progress, None, QuadLa
     Raises
     ------
     LayoutError
-        The field is not aligned or not integrable, or its map has triangles turned over.
+        The verdict refuses it, or its map has triangles turned over.
 
     Notes
     -----
@@ -149,7 +147,9 @@ def quad_layout(integrated: IntegratedField) -> Generator[Progress, None, QuadLa
     >>> layout.patches, layout.conforming
     (5, True)
     """
-    _require_integrable(integrated)
+    verdict = judge(integrated.field) if verdict is None else verdict
+    if verdict.refused:
+        raise LayoutError(verdict.reason.rstrip("."), remedies=verdict.remedies)
     yield Progress("fitting the seamless map", 0.0)
     map_ = JoinedMap(integrated)
     map_.require_upright()  # joining turns no more over
@@ -177,18 +177,3 @@ def quad_layout(integrated: IntegratedField) -> Generator[Progress, None, QuadLa
         len(map_.flipped),
         map_.mended,
     )
-
-
-def _require_integrable(integrated: IntegratedField) -> None:
-    field = integrated.field
-    worst = float(np.abs(field.boundary_misalignment).max(initial=0.0))
-    if worst > MISALIGNED:
-        raise LayoutError(
-            f"the field misses a boundary by {np.degrees(worst):.3g} degrees",
-            remedies=(MAKE_VALID, ANISOTROPIC),
-        )
-    if field.energy > NOT_INTEGRABLE:
-        raise LayoutError(
-            f"the field is not integrable, E = {field.energy:.2g}",
-            remedies=(MAKE_VALID, ANISOTROPIC),
-        )

@@ -25,6 +25,9 @@ FAR = 1.5
 ALIKE = np.radians(1.0)
 """Spread of directions between nodes that count as one when a turn is chosen, radians. Chosen."""
 
+WILD = 0.25
+"""Relative difference of a side's two images in triangles too flat to tell crosses at. Chosen."""
+
 SETTLED, ROUNDS = 1e-4, 5
 """Turn, radians, after which none more is sought, and how many are at most. Chosen."""
 
@@ -116,8 +119,10 @@ def _chart(field: CrossField) -> Chart:
     sides = t.lengths * np.exp(-size + 1j * angle)
     sides -= sides.mean(axis=1)[:, None]
     rough = Chart.of_field(field)
-    over = (sides[:, 0].conj() * -sides[:, 2]).imag <= 0  # in next to flat triangles
-    return replace(rough, images=np.where(over[:, None], rough.images, sides))
+    off = np.abs(sides - rough.images) / np.abs(rough.images)
+    over = (sides[:, 0].conj() * -sides[:, 2]).imag <= 0
+    wild = over | (off.max(axis=1) > WILD)
+    return replace(rough, images=np.where(wild[:, None], rough.images, sides))
 
 
 def _best_turn(traces: Traces, crossings: Crossings) -> float:

@@ -22,8 +22,8 @@ from solvers.quads.integer_program import arcs_alone, offsets
 from solvers.quads.unbroken import hasty, unbroken
 from solvers.surface.triangulation import IntArray
 
-MOST_QUADS = 5_000_000
-"""Finer meshes are not made."""
+MOST_QUADS = 2_000_000
+"""More are not asked for but by a slip of the pen. Chosen."""
 
 NEAR_ENOUGH = 0.01
 """Relative distance from a wanted number of quads at which looking further ends. Chosen."""
@@ -127,6 +127,12 @@ def quantize(
     ([4, 2, 4, 2], 8)
     """
     edge_length = real_number("the edge length", edge_length, above=0)
+    if tmesh.area / edge_length**2 > MOST_QUADS:
+        raise CrossviewError(
+            f"edges of {edge_length:.3g} make {tmesh.area / edge_length**2:.3g} quads",
+            f"at most {MOST_QUADS:.3g}",
+            "choose longer edges",
+        )
     cuts: list[Cut] = []
     found = _nearest(tmesh, edge_length, collapse, time_limit, cuts)
     return _straightened(found, tmesh, collapse, STRAIGHTENING * time_limit, cuts)
@@ -213,12 +219,6 @@ def _nearest(
     tmesh: TMesh, edge_length: float, collapse: bool, time_limit: float, cuts: list[Cut]
 ) -> Quantization:
     """Return counts near to the arcs' lengths alone; conditions found on the way join `cuts`."""
-    if tmesh.area / edge_length**2 > MOST_QUADS:
-        raise CrossviewError(
-            f"edges of {edge_length:.3g} make {tmesh.area / edge_length**2:.3g} quads",
-            f"at most {MOST_QUADS:.3g}",
-            "choose longer edges",
-        )
     wanted, half = tmesh.lengths / edge_length, 0.5 * time_limit
     counts, optimal = unbroken(tmesh, wanted, arcs_alone(tmesh), collapse, half, cuts)
     if counts is None:

@@ -28,10 +28,10 @@ from crossview.gui.panels.texts import BAD, GOOD
 from crossview.gui.panels.validity import DOT
 from crossview.gui.state import WindowState
 from crossview.workflow.quads import DEFAULT_QUADS, MeshOptions
+from solvers.quads.quantization import MOST_QUADS
 from solvers.surface.trisurface import TriSurface
 
 COUNT, LENGTH = range(2)
-MOST_QUADS = 1_000_000
 NOTHING = "No quads yet."
 STALE = "The quads were of an earlier state and are gone; make them again."
 

@@ -168,7 +168,7 @@ def test_a_valid_annulus_stays_valid() -> None:
     radius = np.where(np.arange(8) % 2, 0.85, 0.6)
     places = np.stack([radius * np.cos(angle), radius * np.sin(angle), 0 * angle], axis=1)
     field = IsotropicSolver(surface).solve(at_places(surface, places, [3, 5] * 4))
-    assert judge(field, flips=0).status == "valid"
+    assert judge(field, 0).status == "valid"
 
 
 @pytest.mark.usefixtures("spoilt")

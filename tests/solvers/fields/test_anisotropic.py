@@ -324,23 +324,23 @@ def test_the_impossible_torus_is_called_impossible() -> None:
     surface = BUILTIN["torus"](n=36)
     start = aligned(surface, at_vertices(surface, [100, 500], [3, 5]))
     field = run(anisotropic_field(start)).field
-    verdict = judge(field, flips=0)
+    verdict = judge(field, 0)
     assert verdict.status == "impossible"
     assert "torus" in verdict.reason
 
 
 def test_verdicts_name_their_reason() -> None:
     start, field = solved("annulus")
-    assert judge(field, flips=0).status == "valid"
-    assert "3 triangles are turned over" in judge(field, flips=3).reason
-    assert "grows by 50%" in judge(field, flips=0, growth=1.5).reason
-    unaligned = judge(start.isotropic, flips=0)
+    assert judge(field, 0).status == "valid"
+    assert "3 triangles are turned over" in judge(field, 3).reason
+    assert "grows by 50%" in judge(field, 0, growth=1.5).reason
+    unaligned = judge(start.isotropic)
     assert unaligned.status == "impossible"
     assert f"{np.degrees(np.abs(start.isotropic.defects[0])):.3g} degrees" in unaligned.reason
     merely_aligned = IntegratedField(start, start.start).field
-    assert "not integrable" in judge(merely_aligned, flips=0).reason
+    assert "not integrable" in judge(merely_aligned).reason
     for residual in (1e-9, np.nan):
-        unsolved = judge(replace(field, residual=residual), flips=0)
+        unsolved = judge(replace(field, residual=residual), 0)
         assert (unsolved.status, unsolved.reason[:9]) == ("unknown", "Not known")
 
 

@@ -1,0 +1,98 @@
+"""One set of limits for every judgement: what is valid is never refused."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from solvers.fields.aligned import AlignedField, IntegratedField, aligned_field
+from solvers.fields.crossfield import CrossField
+from solvers.fields.integrable import anisotropic_field
+from solvers.fields.prepared import prepare
+from solvers.fields.verdict import NEARLY_INTEGRABLE, Limits, judge
+from solvers.layouts.errors import LayoutError
+from solvers.layouts.layout import quad_layout
+from solvers.primitives import annulus
+from solvers.progress import run
+from solvers.singularities.budget import Singularity
+
+
+def turned_pairs(off: float) -> AlignedField:
+    """Four valence 3, four valence 5 each `off` degrees further: that is the defect."""
+    surface = annulus(inner=0.4, n=48)
+    configuration = []
+    for radius, turn, valence in ((0.8, 0.0, 3), (0.6, off, 5)):
+        for angle in np.radians(90 * np.arange(4) + turn):
+            place = [radius * np.cos(angle), radius * np.sin(angle), 0.0]
+            configuration.append(Singularity(surface.closest_point(place), valence))
+    return aligned_field(prepare(surface, configuration, refine=1))
+
+
+@pytest.fixture(scope="module")
+def field() -> CrossField:
+    return run(anisotropic_field(turned_pairs(12.0))).field
+
+
+def with_energy(field: CrossField, energy: float) -> CrossField:
+    everywhere = np.full(field.surface.n_faces, energy**2 / field.surface.area)
+    return replace(field, error_density=everywhere)
+
+
+def test_a_field_that_does_not_close_is_not_known(field: CrossField) -> None:
+    assert judge(field, 0).status == "valid"
+    for error in (0.72, 1e-5, np.nan):
+        verdict = judge(replace(field, max_closing_error=error), 0, limits=Limits(angle=1.0))
+        assert (verdict.status, verdict.refused) == ("unknown", True)
+    assert "41 degrees" in judge(replace(field, max_closing_error=0.72)).reason
+
+
+@pytest.mark.parametrize("measure", ["defects", "boundary_misalignment", "feature_misalignment"])
+@pytest.mark.parametrize("tolerance", [0.01, 0.1, 1.0])
+def test_what_is_off_by_the_tolerance_is_refused(
+    field: CrossField, measure: str, tolerance: float
+) -> None:
+    limits = Limits(float(np.radians(tolerance)))
+    for share, status in ((0.99, {"valid"}), (1.01, {"suspect", "impossible"}), (np.nan, None)):
+        angles = np.array([0.0, -share * limits.angle])
+        verdict = judge(replace(field, **{measure: angles}), 0, limits=limits)
+        if status is not None:
+            assert verdict.status in status
+        assert verdict.refused == (share != 0.99)
+
+
+def test_energy_is_judged_in_three_steps(field: CrossField) -> None:
+    limits = Limits(energy=1e-3)
+    for energy, status, refused in (
+        (0.99e-3, "valid", False),
+        (1.01e-3, "suspect", False),
+        (0.99 * NEARLY_INTEGRABLE, "suspect", False),
+        (1.01 * NEARLY_INTEGRABLE, "suspect", True),
+    ):
+        verdict = judge(with_energy(field, energy), 0, limits=limits)
+        assert (verdict.status, verdict.refused) == (status, refused)
+    wide = Limits(energy=2 * NEARLY_INTEGRABLE)
+    assert judge(with_energy(field, 1.5 * NEARLY_INTEGRABLE), 0, limits=wide).status == "valid"
+
+
+@pytest.mark.parametrize("off", [0.3, 3.0, 20.0])
+def test_the_energy_that_a_surface_allows_is_that_of_the_defects_it_allows(off: float) -> None:
+    """E^2 of the aligned field is r^2 2 pi / log(outer / inner) on an annulus."""
+    aligned = turned_pairs(off)
+    defect = float(np.abs(aligned.isotropic.defects[0]))
+    energy = IntegratedField(aligned, aligned.start).field.energy
+    for share, valid in ((1.01, True), (0.99, False)):
+        limits = Limits.on(aligned.solver.holonomy, share * defect)
+        assert (energy <= limits.energy) == valid
+    assert energy == pytest.approx(defect * np.sqrt(2 * np.pi / np.log(1 / 0.4)), rel=0.01)
+
+
+def test_a_layout_is_refused_with_the_verdicts_words_and_made_where_it_allows() -> None:
+    aligned = turned_pairs(1.0)
+    start = IntegratedField(aligned, aligned.start)
+    assert start.field.energy > NEARLY_INTEGRABLE
+    with pytest.raises(LayoutError, match="not integrable") as refused:
+        run(quad_layout(start))
+    assert refused.value.what == judge(start.field).reason.rstrip(".")
+    wide = Limits.on(aligned.solver.holonomy, float(np.radians(1.2)))
+    made = run(quad_layout(start, judge(start.field, limits=wide)))
+    assert made.flips == 0
