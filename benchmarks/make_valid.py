@@ -25,7 +25,7 @@ from solvers.singularities.budget import Singularity, default_corners
 from solvers.surface.points import SurfacePoint
 from solvers.surface.refinement import refine_at
 from solvers.surface.trisurface import TriSurface
-from solvers.validity.make_valid import make_valid
+from solvers.validity.attempts import make_valid
 
 BEGIN, END = "<!-- table -->", "<!-- end of table -->"
 HEADER = """| surfaces | conditions | singularities | made valid | to farther layouts | largest move, median | worst defect, fresh solve | seconds, median | only 2 + m unlocked |

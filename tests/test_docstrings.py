@@ -57,6 +57,13 @@ def test_it_is_documented(thing: Callable[..., Any]) -> None:
     assert not {name: texts for name, texts in wrong.items() if texts}
 
 
+def test_no_name_hides_a_module() -> None:
+    for package in PACKAGES:
+        room = import_module(f"solvers.{package}")
+        modules = {module.name for module in pkgutil.iter_modules(room.__path__)}
+        assert modules.isdisjoint(room.__all__), package
+
+
 def members(thing: object) -> dict[str, object]:
     """The public methods and properties that a class defines itself."""
     kinds = (FunctionType, classmethod, staticmethod, property, cached_property)

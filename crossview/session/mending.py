@@ -21,7 +21,7 @@ from solvers.remedies import Remedy, UseMethod
 from solvers.singularities.budget import Singularity
 from solvers.singularities.placing import far_points
 from solvers.singularities.remedies import AddMissing, ChangeOne, RemoveOne
-from solvers.validity.make_valid import PlaceAnew
+from solvers.validity.attempts import PlaceAnew
 
 MOST_ADDED = 64
 

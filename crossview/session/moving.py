@@ -17,7 +17,7 @@ from solvers.fields.natural import NATURAL_ALIGNMENTS, CrossesStep, natural_sing
 from solvers.progress import Progress, relayed
 from solvers.singularities.budget import Singularity
 from solvers.surface.triangulation import FloatArray
-from solvers.validity.make_valid import Moved, make_valid
+from solvers.validity import Moved, make_valid
 
 T = TypeVar("T")
 
@@ -62,7 +62,7 @@ def move_to_validity(
     Raises
     ------
     SingularityError
-        As `solvers.validity.make_valid.make_valid`.
+        As `solvers.validity.attempts.make_valid`.
     """
     problem = document.problem
     computation = make_valid(

@@ -9,8 +9,8 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from crossview.cases.parts import PlacedFeatures, Polyline, Position
+from solvers.features.dihedral import sharp_edges
 from solvers.features.edges import Features, no_features
-from solvers.features.sharp_edges import sharp_edges
 from solvers.surface.edge_paths import EdgePaths
 from solvers.surface.triangulation import IntArray
 from solvers.surface.trisurface import TriSurface

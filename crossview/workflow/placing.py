@@ -15,8 +15,8 @@ from solvers.fields.natural import (
 )
 from solvers.progress import Progress
 from solvers.singularities.budget import require_budget
+from solvers.validity.attempts import make_valid as moved_to_validity
 from solvers.validity.completion import missing_singularities
-from solvers.validity.make_valid import make_valid as moved_to_validity
 from solvers.validity.search import Moved
 
 Placing = Generator[Progress, None, Problem]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
+from solvers.features.dihedral import dihedral_angles, sharp_edges
 from solvers.features.edges import FeatureCurve, Features, no_features
-from solvers.features.sharp_edges import dihedral_angles, sharp_edges
 
 __all__ = ["FeatureCurve", "Features", "dihedral_angles", "no_features", "sharp_edges"]

@@ -28,7 +28,7 @@ from solvers.singularities.budget import (
     default_corners,
     require_budget,
 )
-from solvers.surface.cut_graph import cut_graph
+from solvers.surface.cutting import cut_graph
 from solvers.surface.triangulation import QUARTER, FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface
 

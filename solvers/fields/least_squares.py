@@ -11,7 +11,7 @@ import numpy as np
 from solvers.algebra.factorization import factorized
 from solvers.algebra.operators import crouzeix_raviart, midpoint_offsets
 from solvers.fields.connection import Discretization
-from solvers.surface.cut_graph import cut_graph
+from solvers.surface.cutting import cut_graph
 from solvers.surface.triangulation import QUARTER, FloatArray, IntArray
 
 

@@ -14,8 +14,8 @@ from solvers.primitives.curved import (
     torus_with_hole,
 )
 from solvers.primitives.flat import annulus, disk, l_shape, plate_with_holes, rectangle, square
-from solvers.primitives.genus import genus
-from solvers.primitives.planar import planar
+from solvers.primitives.handles import genus
+from solvers.primitives.polygons import planar
 from solvers.surface.trisurface import TriSurface
 
 BUILTIN: dict[str, Callable[..., TriSurface]] = {

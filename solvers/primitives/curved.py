@@ -10,7 +10,7 @@ from scipy.spatial import ConvexHull
 from solvers.errors import SurfaceError
 from solvers.primitives.checks import affordable, positive, whole
 from solvers.primitives.lattices import grid, rings, subdivide
-from solvers.primitives.planar import fill
+from solvers.primitives.polygons import fill
 from solvers.surface.triangulation import FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface
 

@@ -9,7 +9,7 @@ import numpy as np
 from solvers.errors import SurfaceError
 from solvers.primitives.checks import affordable, positive, whole
 from solvers.primitives.lattices import grid, hexagon, rings
-from solvers.primitives.planar import planar
+from solvers.primitives.polygons import planar
 from solvers.surface.triangulation import FloatArray
 from solvers.surface.trisurface import TriSurface
 

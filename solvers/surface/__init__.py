@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from solvers.surface.cut_graph import cut_graph
+from solvers.surface.cutting import cut_graph
 from solvers.surface.delaunay import DelaunayTriangulation, Located
 from solvers.surface.edge_paths import EdgePaths
 from solvers.surface.geodesics import straightest

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from solvers.validity.attempts import PlaceAnew, ValidityError, make_valid
 from solvers.validity.completion import missing_singularities
 from solvers.validity.guide import Guide, LevelLines
-from solvers.validity.make_valid import PlaceAnew, ValidityError, make_valid
 from solvers.validity.search import Moved
 
 __all__ = [

@@ -189,7 +189,7 @@ class Search:
         singularities, turns
             What `approach` has reached.
         corners, levels
-            As of `solvers.validity.make_valid.make_valid`.
+            As of `make_valid`.
         limit : int, optional
             Of the number of corrections.
 

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from solvers.errors import CrossviewError
-from solvers.features.sharp_edges import sharp_edges
+from solvers.features.dihedral import sharp_edges
 from solvers.fields.alternating import alternate
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.fields.natural import natural_singularities

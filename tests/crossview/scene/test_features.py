@@ -4,8 +4,8 @@ import numpy as np
 
 from crossview.scene import SceneView, layers_named
 from crossview.view.colors import FEATURE, PROBLEM
+from solvers.features.dihedral import sharp_edges
 from solvers.features.edges import Features
-from solvers.features.sharp_edges import sharp_edges
 from solvers.primitives import BUILTIN
 from solvers.surface.trisurface import TriSurface
 from tests.crossview.scene.stage import Stage

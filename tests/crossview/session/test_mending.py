@@ -14,7 +14,7 @@ from solvers.progress import run
 from solvers.remedies import ANISOTROPIC, RepairSurface
 from solvers.singularities.budget import Singularity
 from solvers.singularities.placing import far_points
-from solvers.validity.make_valid import ValidityError, make_valid
+from solvers.validity.attempts import ValidityError, make_valid
 
 
 def document(surface: dict, *singularities: tuple[list[float], int]) -> Document:

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from crossview.cases.model import Case
 from crossview.workflow.problem import Problem
+from solvers.features.dihedral import sharp_edges
 from solvers.features.edges import Features, no_features
-from solvers.features.sharp_edges import sharp_edges
 from solvers.fields.aligned import IntegratedField, aligned_field
 from solvers.fields.crossfield import CrossField
 from solvers.fields.feature_alignment import nearest_integers

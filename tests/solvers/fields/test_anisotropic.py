@@ -21,7 +21,7 @@ from solvers.singularities.budget import Singularity, default_corners
 from solvers.surface.refinement import refine_at
 from solvers.surface.triangulation import QUARTER, wrap
 from solvers.surface.trisurface import TriSurface
-from solvers.validity.make_valid import make_valid
+from solvers.validity.attempts import make_valid
 from tests.solvers.suite import SURFACES, at_vertices, random_configuration, separated
 
 DISTORTED = ["annulus", "plate", "cylinder", "torus_with_hole", "double_torus", "slivers"]

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from solvers.errors import CrossviewError
+from solvers.features.dihedral import sharp_edges
 from solvers.features.edges import Features
-from solvers.features.sharp_edges import sharp_edges
 from solvers.fields.natural import NATURAL_METHODS, CrossesStep, natural_singularities
 from solvers.fields.principal import principal_crosses
 from solvers.primitives import BUILTIN

@@ -6,8 +6,8 @@ from functools import cache
 
 import numpy as np
 
+from solvers.features.dihedral import sharp_edges
 from solvers.features.edges import Features
-from solvers.features.sharp_edges import sharp_edges
 from solvers.fields.aligned import IntegratedField
 from solvers.fields.integrable import anisotropic_field
 from solvers.fields.prepared import prepare

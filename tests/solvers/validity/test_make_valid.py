@@ -18,7 +18,7 @@ from solvers.surface.geodesics import straightest
 from solvers.surface.points import SurfacePoint
 from solvers.surface.refinement import refine_at
 from solvers.surface.trisurface import TriSurface
-from solvers.validity.make_valid import Moved, PlaceAnew, ValidityError, make_valid
+from solvers.validity import Moved, PlaceAnew, ValidityError, make_valid
 from tests.real_surfaces import PATHS
 from tests.solvers.suite import SURFACES, at_vertices, separated
 

@@ -24,9 +24,7 @@ from solvers.singularities.pairs import pair_at
 from solvers.singularities.placing import far_points
 from solvers.surface.triangulation import QUARTER, FloatArray
 from solvers.surface.trisurface import TriSurface
-from solvers.validity.search import TOLERANCE, Blocked, Moved, Obstacle, Search
-
-__all__ = ["TOLERANCE", "Moved", "PlaceAnew", "ValidityError", "make_valid"]
+from solvers.validity.search import Blocked, Moved, Obstacle, Search
 
 NEAREST = 16
 """How many layouts are tried before something else is proposed. Chosen."""
