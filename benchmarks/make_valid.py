@@ -62,7 +62,9 @@ class Outcome:
     farther: bool = False
 
 
-def outcomes(name: str, count: int, make: Callable) -> Iterator[tuple[Outcome, Outcome]]:
+def outcomes(
+    name: str, count: int, make: Callable[[np.random.Generator], TriSurface]
+) -> Iterator[tuple[Outcome, Outcome]]:
     """Of each configuration, with all free and with only 2 + m of them."""
     for seed in range(count):
         rng = np.random.default_rng([sum(map(ord, name)), seed])

@@ -71,7 +71,7 @@ class Made:
     def rim(self) -> np.ndarray:
         """(k, 2) edges with one face."""
         edges, count = np.unique(self.edges, axis=0, return_counts=True)
-        return edges[count == 1]
+        return np.asarray(edges[count == 1])
 
     @property
     def irregular(self) -> int:
@@ -90,7 +90,9 @@ def problems(folder: Path | None) -> Iterator[tuple[str, Problem]]:
     yield "sphere", Problem(ball, cube)
     yield "torus", Problem(BUILTIN["torus"](n=160))
     yield "annulus", Problem(BUILTIN["annulus"](n=240))
-    for file in ("spot_low_resolution.obj", "goathead.obj") if folder is not None else ():
+    if folder is None:
+        return
+    for file in ("spot_low_resolution.obj", "goathead.obj"):
         surface = Problem.from_case(Case(str(folder / file))).surface
         eight = tuple(Singularity(p, 3) for p in run(far_points(surface, (), 8)))
         yield file, Problem(surface, eight)
@@ -149,7 +151,7 @@ def _outward(made: Made) -> np.ndarray:
     own = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
     normals = np.zeros_like(made.vertices)
     np.add.at(normals, made.quads, own[:, None])
-    return normals[made.quads].sum(axis=1)
+    return np.asarray(normals[made.quads].sum(axis=1))
 
 
 def _boundary(surface: TriSurface, made: Made) -> str:

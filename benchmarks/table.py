@@ -13,6 +13,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -64,7 +65,9 @@ def entries(folder: Path | None) -> Iterator[Entry]:
     yield made("annulus, valence 8", BUILTIN["annulus"](n=64), [8, 3, 3, 3, 3], 0.25)
     yield made("torus, 3 3 5 5", BUILTIN["torus"](n=48), [3, 3, 5, 5], 0.4)
     yield made("sphere", BUILTIN["sphere"](subdivisions=4), [3] * 8, 0.4)
-    for file, number, valence in REAL if folder is not None else ():
+    if folder is None:
+        return
+    for file, number, valence in REAL:
         surface = Problem.from_case(Case(str(folder / file))).surface
         places = run(far_points(surface, (), number))
         valences = [valence] * number if valence else [3, 5] * (number // 2)
@@ -95,7 +98,7 @@ def row(entry: Entry) -> str:
         f"{aligned.integrability.residual(aligned.start).energy:.3g}",
     ]
     for weight in (1.0, 1e-3):
-        end, seconds = timed(lambda weight=weight: run(alternate(aligned, weight)))
+        end, seconds = timed(partial(run, alternate(aligned, weight)))
         cells += [f"{end.history[-1]:.1e}", f"{len(end.history) - 1}, {seconds:.1f}"]
     return "| " + " | ".join(cells) + " |"
 
@@ -105,7 +108,7 @@ def newton_from_zero(aligned: AlignedField) -> Iterate:
     return run(newton.solve(np.zeros(aligned.integrability.assembly.n)))
 
 
-def timed(work: Callable[[], object]) -> tuple[Iterate, float]:
+def timed(work: Callable[[], Iterate]) -> tuple[Iterate, float]:
     start = time.perf_counter()
     end = work()
     return end, time.perf_counter() - start

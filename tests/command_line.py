@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -21,6 +21,9 @@ class Ran:
     def json(self) -> Any:
         return json.loads(self.out)
 
+
+Placed = tuple[Sequence[float], int]
+"""A singularity of a case: where it is, and its valence."""
 
 Crossview = Callable[..., Ran]
 CaseFile = Callable[..., Path]

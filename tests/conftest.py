@@ -18,7 +18,7 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Producer) -> LoadSco
     """Keep tests of one file on one worker, and all windows on one: they share the focus."""
     from xdist.scheduler import LoadScopeScheduling
 
-    class OneDisplay(LoadScopeScheduling):
+    class OneDisplay(LoadScopeScheduling):  # type: ignore[misc] # xdist has no types
         def _split_scope(self, nodeid: str) -> str:
             return "windows" if nodeid.startswith(WINDOWS) else nodeid.partition("::")[0]
 

@@ -54,7 +54,13 @@ class Hand:
             time.sleep(0.002)
         QApplication.processEvents()
 
-    def open(self, target: str) -> None:
+    @property
+    def said(self) -> str:
+        """What the message says."""
+        assert self.state.message is not None
+        return self.state.message.text
+
+    def open(self, target: str | Path) -> None:
         self.window.files.open(str(target))
         self.wait()
 

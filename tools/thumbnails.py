@@ -9,7 +9,8 @@ from crossview.cases.model import Case
 from crossview.export.raster import picture
 from crossview.gui.empty_state import FEATURED
 from crossview.scene import field_view, layers_named
-from crossview.workflow.pipeline import Pipeline, Problem
+from crossview.workflow.pipeline import Pipeline
+from crossview.workflow.problem import Problem
 from solvers.progress import run
 
 FOLDER = Path(__file__).parents[1] / "resources" / "thumbnails"

@@ -40,4 +40,21 @@ BUILTIN: dict[str, Callable[..., TriSurface]] = {
 }
 """The functions that make the built-in surfaces, by name: ``BUILTIN["torus"](n=36)``."""
 
-__all__ = ["BUILTIN", *BUILTIN]
+__all__ = [
+    "BUILTIN",
+    "annulus",
+    "blob",
+    "cube_sphere",
+    "cylinder",
+    "disk",
+    "ellipsoid",
+    "genus",
+    "l_shape",
+    "planar",
+    "plate_with_holes",
+    "rectangle",
+    "sphere",
+    "square",
+    "torus",
+    "torus_with_hole",
+]

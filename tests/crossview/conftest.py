@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 from pathlib import Path
 
 import pytest
 
 from crossview.cli import main
-from tests.command_line import CaseFile, Crossview, Ran
+from tests.command_line import CaseFile, Crossview, Placed, Ran
 
 
 @pytest.fixture
@@ -28,7 +29,7 @@ def crossview(capsys: pytest.CaptureFixture[str]) -> Crossview:
 def case_file(tmp_path: Path) -> CaseFile:
     """Write a case file."""
 
-    def write(surface: object, singularities: object = (), **more: object) -> Path:
+    def write(surface: object, singularities: Iterable[Placed] = (), **more: object) -> Path:
         placed = [{"position": list(p), "valence": valence} for p, valence in singularities]
         path = tmp_path / "case.json"
         path.write_text(json.dumps({"surface": surface, "singularities": placed, **more}))

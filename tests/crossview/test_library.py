@@ -42,8 +42,8 @@ def test_from_a_file_to_a_quad_mesh(tmp_path: Path) -> None:
     assert mesh.irregular == {3: 8}
     assert mesh.scaled_jacobian.min() > 0
     again = crossview.read(tmp_path / "case.json")
-    places = [p.surface.positions([s.point for s in p.singularities]) for p in (problem, again)]
-    np.testing.assert_allclose(*places, atol=1e-9)
+    one, other = (p.surface.positions([s.point for s in p.singularities]) for p in (problem, again))
+    np.testing.assert_allclose(one, other, atol=1e-9)
     assert crossview.read_surface(tmp_path / "quads.obj").euler_characteristic == 2
 
 

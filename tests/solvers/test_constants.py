@@ -12,6 +12,7 @@ ROOT = Path(solvers.__path__[0])
 def undocumented(source: str) -> Iterator[str]:
     """The constants of a module without a string after them; type variables are none."""
     body = ast.parse(source).body
+    value: ast.expr | None
     for statement, following in zip(body, [*body[1:], ast.Pass()], strict=True):
         match statement:
             case ast.Assign(targets=[target], value=value):
@@ -22,7 +23,7 @@ def undocumented(source: str) -> Iterator[str]:
                 continue
         names = [name.id for name in ast.walk(target) if isinstance(name, ast.Name)]
         described = isinstance(following, ast.Expr) and isinstance(following.value, ast.Constant)
-        if names[0].isupper() and not described and "TypeVar" not in ast.unparse(value):
+        if names[0].isupper() and not described and "TypeVar" not in ast.unparse(value or target):
             yield names[0]
 
 

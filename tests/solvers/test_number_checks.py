@@ -46,7 +46,7 @@ def test_every_way_to_write_a_whole_number_is_the_same(n: int) -> None:
         found = whole_number("n", value)
         assert found == n
         assert type(found) is int
-        assert whole_numbers("n", [value, value]).tolist() == [n, n]
+        assert whole_numbers("n", np.array([value, value])).tolist() == [n, n]
 
 
 @given(st.floats(-1e15, 1e15).filter(lambda x: x != int(x)))
@@ -55,7 +55,7 @@ def test_no_fraction_is_cut(x: float) -> None:
         with pytest.raises(CrossviewError, match="n must be a whole number"):
             whole_number("n", wrong)
     with pytest.raises(CrossviewError, match=r"n must be whole numbers.*row 1"):
-        whole_numbers("n", [[0, 1], [2, x]])
+        whole_numbers("n", np.array([[0, 1], [2, x]]))
     assert real_number("x", x) == x
 
 
@@ -158,4 +158,5 @@ def test_whole_numbers_written_as_floats_are_whole() -> None:
     singularity = Singularity(MIDDLE, 3.0)  # type: ignore[arg-type]
     assert (singularity, singularity.index) == (Singularity(MIDDLE, 3), 1)
     assert TriSurface(CORNERS, [[0.0, 1.0, 2.0]]).faces.dtype == np.int64
-    assert SurfacePoint(np.int64(2), (1, 0, 0)) == SurfacePoint(2, (1.0, 0.0, 0.0))
+    point = SurfacePoint(np.int64(2), (1, 0, 0))  # type: ignore[arg-type]
+    assert point == SurfacePoint(2, (1.0, 0.0, 0.0))

@@ -27,7 +27,9 @@ from tests.solvers.suite import SURFACES
         ),
     ],
 )
-def test_an_error_is_one_line_of_what_where_and_what_to_do(error, line) -> None:
+def test_an_error_is_one_line_of_what_where_and_what_to_do(
+    error: CrossviewError, line: str
+) -> None:
     assert str(error) == line
 
 

@@ -49,8 +49,6 @@ def test_sphere_to_six_patches_to_quads_to_a_file(hand: Hand, tmp_path: Path) ->
 
     # the separatrices are there, exact: twelve from corner to corner
     assert len(hand.state.separatrices.valences) == 12
-    middle = hand.place((0.577, 0.0, 0.577 * 1.2247) / np.linalg.norm((0.577, 0.0, 0.707)))
-    assert middle is not None
 
     # the layout: six patches in colours of which neighbours differ
     window.layers_panel.toggle("layout")
@@ -95,7 +93,7 @@ def test_sphere_to_six_patches_to_quads_to_a_file(hand: Hand, tmp_path: Path) ->
         assert path.with_suffix(suffix).stat().st_size > 1000
     assert pv.read(path.with_suffix(".vtk")).n_cells == quads.n_quads
     window.files.save_quads(path.with_suffix(".docx"))
-    assert ".docx" in hand.state.message.text
+    assert ".docx" in hand.said
 
     # other colours, from the layer's own box
     editor = window.layers_panel.editors["quads"]
@@ -201,9 +199,9 @@ def test_a_field_that_misses_a_boundary_is_refused_and_one_click_mends_it(
     assert hand.state.message is None  # drawn all the same, and nobody has asked for quads
     hand.trigger("mesh")
     hand.wait(lambda: hand.state.message is not None)
-    assert hand.state.message.text.startswith("the field misses 2 boundaries")
-    assert "\n" not in hand.state.message.text
-    assert hand.state.made.quads is None
+    assert hand.said.startswith("the field misses 2 boundaries")
+    assert "\n" not in hand.said
+    assert not hand.state.made.quads
     assert hand.window.quads_panel.said.text() == NOTHING
     offer(hand, "Solve anisotropic").click()
     hand.wait(lambda: hand.state.made.quads is not None)

@@ -83,7 +83,7 @@ def test_bad_triangles_can_be_repaired(hand: Hand, tmp_path: Path) -> None:
     assert labels == ["Repair", "Show where"]
     hand.window.centre.message_bar.action_buttons[0].click()
     hand.wait(lambda: hand.state.document is not None)
-    assert hand.state.document.surface.n_faces == 2
+    assert hand.state.shown_surface.n_faces == 2
     assert hand.state.field is not None  # four corners: the budget holds
 
 
@@ -152,6 +152,7 @@ def test_the_last_one_of_a_budget_shows_its_defects_before_it_is_placed(hand: Ha
     hand.move(hand.place((0.75, 0.1, 0.0)))
     hand.wait()
     predicted = hand.state.defects
+    assert predicted is not None
     shown = hand.window.validity_panel.rows[0].value.text()
     hand.click(hand.place((0.75, 0.1, 0.0)))
     hand.wait(lambda: hand.state.solved)
@@ -233,9 +234,9 @@ def test_real_surfaces_from_file_to_field(hand: Hand, name: str) -> None:
     panel = hand.window.validity_panel
     labels = [button.text() for button in panel.buttons]
     all_of_them = [label for label in labels if label.startswith("Add all")]
-    panel.buttons[labels.index(*(all_of_them or labels[:1]))].click()
+    panel.buttons[labels.index((all_of_them or labels)[0])].click()
     hand.wait(lambda: hand.state.solved)
-    assert hand.state.field.max_closing_error < 1e-9
+    assert hand.state.solution.field.max_closing_error < 1e-9
     color = BLUE if hand.state.singularities[0].valence == 3 else RED
     assert hand.shows(color)
 

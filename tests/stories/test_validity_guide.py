@@ -21,7 +21,7 @@ def polar(radius: float, degrees: float) -> list[float]:
     return [radius * np.cos(np.radians(degrees)), radius * np.sin(np.radians(degrees)), 0.0]
 
 
-def saved(tmp_path: Path, builtin: dict, *placed: tuple[Sequence[float], int]) -> str:
+def saved(tmp_path: Path, builtin: dict[str, object], *placed: tuple[Sequence[float], int]) -> str:
     singularities = [{"position": list(map(float, p)), "valence": v} for p, v in placed]
     path = tmp_path / "case.json"
     path.write_text(json.dumps({"surface": builtin, "singularities": singularities}))
@@ -99,8 +99,9 @@ def test_dragging_freely_leaves_the_lines_where_they_are(hand: Hand, annulus: st
     hand.drag(hand.place_of(0), hand.place(polar(0.6, -30)))
     hand.wait()
     assert sorted(round(angle) for _, angle in rays(hand)) == [20, 80]
-    value = hand.state.defects[0]
-    assert np.degrees(value) == pytest.approx((-30 - 80) / 4, abs=0.5)
+    defects = hand.state.defects
+    assert defects is not None
+    assert np.degrees(defects[0]) == pytest.approx((-30 - 80) / 4, abs=0.5)
     hand.key(Qt.Key.Key_Escape)
     hand.wait()
 
@@ -148,13 +149,13 @@ def test_a_row_pointed_at_shows_its_condition_alone_and_a_click_pins_it(
     hand.click(place)
     hand.move(QPointF(3, 3))
     hand.wait()
-    assert hand.state.guide == ()
+    assert not hand.state.guide
     enter(rows[0], True)
     hand.wait()
     assert {line.color for line in hand.state.guide} == {condition_color(0)}
     enter(rows[0], False)
     hand.wait()
-    assert hand.state.guide == ()
+    assert not hand.state.guide
 
 
 def test_the_guide_can_be_hidden(hand: Hand, annulus: str) -> None:

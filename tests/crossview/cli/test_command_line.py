@@ -354,7 +354,7 @@ def test_long_work_shows_its_progress(case_file: CaseFile, tmp_path: Path) -> No
 @pytest.mark.skipif(sys.platform == "win32", reason="no such signal")
 def test_ctrl_c_ends_in_one_line_and_leaves_nothing(case_file: CaseFile, tmp_path: Path) -> None:
     path = case_file({"builtin": "square", "n": 900})
-    command = [PROGRAM, "solve", path, "-o", tmp_path / "out"]
+    command: list[str | Path] = [PROGRAM, "solve", path, "-o", tmp_path / "out"]
     with subprocess.Popen(command, stdout=-1, stderr=-1, text=True) as program:
         while not list(tmp_path.glob(".crossview-*")):  # until it has begun
             assert program.poll() is None

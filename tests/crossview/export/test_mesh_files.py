@@ -43,9 +43,10 @@ def test_written_meshes_are_surfaces_that_can_be_read(
     assert raw.faces.shape == (2 * mesh.n_quads, 3)
     corners = raw.vertices[raw.faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    whole = np.cross(
-        *(mesh.vertices[mesh.quads[:, i + 2]] - mesh.vertices[mesh.quads[:, i]] for i in (0, 1))
+    first, second = (
+        mesh.vertices[mesh.quads[:, i + 2]] - mesh.vertices[mesh.quads[:, i]] for i in (0, 1)
     )
+    whole = np.cross(first, second)
     assert np.linalg.norm(normals, axis=1).sum() == pytest.approx(
         np.linalg.norm(whole, axis=1).sum(), rel=1e-2
     )

@@ -21,7 +21,9 @@ BAD = SurfaceError(
 )
 
 
-def kinds(error: CrossviewError, tried=None, method: str = "isotropic") -> list[type]:
+def kinds(
+    error: CrossviewError, tried: Opening | MeshOptions | None = None, method: str = "isotropic"
+) -> list[type]:
     return [type(remedy) for remedy in offered(error, tried, method)]
 
 
@@ -33,7 +35,9 @@ def kinds(error: CrossviewError, tried=None, method: str = "isotropic") -> list[
         (LayoutError("no quads", remedies=[MAKE_VALID, ANISOTROPIC]), MeshOptions()),
     ],
 )
-def test_other_words_make_the_same_buttons(error, tried) -> None:
+def test_other_words_make_the_same_buttons(
+    error: CrossviewError, tried: Opening | MeshOptions
+) -> None:
     before = kinds(error, tried)
     assert before
     error.remedies = tuple(replace(remedy, words="etwas anderes") for remedy in error.remedies)

@@ -137,6 +137,7 @@ def test_the_table_edits_valence_lock_and_selection(hand: Hand) -> None:
     assert hand.state.selected == 1
     hand.trigger("edit")
     editor = table.findChild(QSpinBox)
+    assert editor is not None
     editor.setValue(5)
     QTest.keyClick(editor, Qt.Key.Key_Return)
     hand.wait()
@@ -155,6 +156,7 @@ def test_a_double_click_edits_the_valence(hand: Hand) -> None:
         hand.canvas, Qt.MouseButton.LeftButton, pos=hand.place_of(2).toPoint(), delay=0
     )
     editor = hand.window.singularities_panel.table.findChild(QSpinBox)
+    assert editor is not None
     editor.setValue(6)
     QTest.keyClick(editor, Qt.Key.Key_Return)
     hand.wait()

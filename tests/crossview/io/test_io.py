@@ -385,8 +385,8 @@ def test_vtk_cells_that_name_missing_points_are_refused(tmp_path: Path) -> None:
 
 def test_gltf_scenes_are_joined_as_placed(tmp_path: Path, ball: TriSurface) -> None:
     path = tmp_path / "x.glb"
-    nodes = [{"mesh": 0}, {"mesh": 1, "translation": [5, 0, 0], "scale": [2, 2, 2]}]
-    write_glb(path, nodes, [ball, torus(n=12)])
+    placed = {"mesh": 1, "translation": [5, 0, 0], "scale": [2, 2, 2]}
+    write_glb(path, [{"mesh": 0}, placed], [ball, torus(n=12)])
     raw = read_surface(path)
     assert raw.notes == ("joined 2 meshes of the scene",)
     part = repair(raw.vertices, raw.faces, merge=raw.merge, component=0).surface

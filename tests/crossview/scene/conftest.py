@@ -34,6 +34,6 @@ def near() -> Near:
 
     def compare(pixels: ArrayLike, color: str, tolerance: int = 3) -> NDArray[np.bool_]:
         wanted = np.round(255.0 * np.array(rgb(color)))
-        return (np.abs(np.asarray(pixels, float) - wanted) <= tolerance).all(axis=-1)
+        return np.asarray((np.abs(np.asarray(pixels, float) - wanted) <= tolerance).all(axis=-1))
 
     return compare

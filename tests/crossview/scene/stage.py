@@ -37,7 +37,7 @@ class Stage:
 
     def color_at(self, position: Sequence[float]) -> NDArray[np.int64]:
         """Colour, 0 to 255, of the pixel at a point in space."""
-        return self.pixels()[self.where(position)].astype(int)
+        return np.asarray(self.pixels()[self.where(position)], dtype=np.int64)
 
     def props(self) -> list[object]:
         """Everything on the plotter, flat and in space."""

@@ -16,7 +16,7 @@ def triangles(surface: TriSurface) -> Triangles:
     return Triangles(surface.vertices, surface.faces)
 
 
-def covered(ends: NDArray[np.float64], segments: NDArray[np.int64]) -> np.ndarray:
+def covered(ends: NDArray[np.floating], segments: NDArray[np.integer]) -> np.ndarray:
     """Intervals drawn along x, joined where they touch."""
     spans = np.sort(ends[segments][:, :, 0], axis=1)
     spans = spans[np.argsort(spans[:, 0])]
@@ -59,7 +59,7 @@ class TestTriangles:
         assert {frozenset(map(int, e)) for e in triangles(ring).boundary_edges} == wanted
 
     def test_only_planar_surfaces_have_a_plane(self) -> None:
-        assert np.allclose(triangles(square(4)).plane_normal, [0.0, 0.0, 1.0])
+        assert triangles(square(4)).plane_normal == pytest.approx([0.0, 0.0, 1.0])
         assert triangles(torus(n=24)).plane_normal is None
 
     def test_cross_angle_is_that_of_a_turned_field_up_to_a_quarter_turn(self) -> None:
@@ -87,7 +87,7 @@ def pixels(camera: Camera, points: NDArray[np.float64]) -> np.ndarray:
     matrix = vtk_camera.GetCompositeProjectionTransformMatrix(ROOM.width / ROOM.height, -1, 1)
     m = np.array([[matrix.GetElement(i, j) for j in range(4)] for i in range(4)])
     clip = np.c_[points, np.ones(len(points))] @ m.T
-    return (clip[:, :2] / clip[:, 3:] + 1.0) / 2.0 * [ROOM.width, ROOM.height]
+    return np.asarray((clip[:, :2] / clip[:, 3:] + 1.0) / 2.0 * [ROOM.width, ROOM.height])
 
 
 class TestCamera:

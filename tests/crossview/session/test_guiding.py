@@ -12,7 +12,7 @@ from solvers.progress import run
 TOLERANCE = np.radians(0.01)
 
 
-def edit(builtin: dict, *placed: tuple[list[float], int]) -> LiveEdit:
+def edit(builtin: dict[str, object], *placed: tuple[list[float], int]) -> LiveEdit:
     singularities = [{"position": p, "valence": v} for p, v in placed]
     case = Case.from_json({"surface": builtin, "singularities": singularities})
     document = Document.from_case("case", case)

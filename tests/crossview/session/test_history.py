@@ -4,6 +4,7 @@ from crossview.cases.model import Case
 from crossview.session.commands import (
     AddSingularities,
     ChangeValence,
+    Command,
     LockSingularity,
     MoveSingularity,
     RemoveSingularities,
@@ -36,7 +37,7 @@ def singularity(face: int, valence: int = 3) -> Singularity:
 
 
 def test_every_command_comes_back_and_again(history: History) -> None:
-    commands = [
+    commands: list[Command] = [
         AddSingularities((singularity(3),)),
         AddSingularities((singularity(9, 5), singularity(12))),
         MoveSingularity(1, SurfacePoint(20, CENTRE)),

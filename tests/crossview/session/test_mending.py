@@ -17,7 +17,7 @@ from solvers.singularities.placing import far_points
 from solvers.validity.attempts import ValidityError, make_valid
 
 
-def document(surface: dict, *singularities: tuple[list[float], int]) -> Document:
+def document(surface: dict[str, object], *singularities: tuple[list[float], int]) -> Document:
     placed = [{"position": p, "valence": v} for p, v in singularities]
     return Document.from_case("case", Case.from_json({"surface": surface, "singularities": placed}))
 

@@ -2,6 +2,7 @@
 
 import time
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -18,7 +19,7 @@ from crossview.workflow.quads import MeshOptions
 from solvers.progress import Progress, run
 
 
-def solved(name: str, **changes: object) -> Solution:
+def solved(name: str, **changes: Any) -> Solution:
     problem = Problem.from_case(Case.load(path_of(name)))
     return run(Pipeline().solve(replace(problem, **changes)))
 

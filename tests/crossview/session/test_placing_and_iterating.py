@@ -14,7 +14,7 @@ from crossview.session.live import LiveBase
 from crossview.session.methods import Iterate, MethodSolver
 from crossview.session.moving import NATURAL_LABELS, Moving, move_to_validity, place_natural
 from solvers.fields.natural import NATURAL_METHODS
-from solvers.progress import run
+from solvers.progress import Progress, run
 
 
 @pytest.fixture(scope="module")
@@ -24,7 +24,7 @@ def near() -> Document:
 
 
 def test_iterates_are_drawn_on_what_they_are_solved_on(near: Document) -> None:
-    seen = []
+    seen: list[Progress] = []
     solved = run(MethodSolver().solve(near.problem), seen.append)
     iterates = [step for step in seen if isinstance(step, Iterate)]
     assert [len(i.step.energies) for i in iterates] == list(range(2, len(iterates) + 2))
@@ -54,7 +54,7 @@ def test_what_is_stopped_is_kept_and_said_to_be_no_more(near: Document) -> None:
 def test_the_way_to_validity_can_be_drawn(near: Document) -> None:
     isotropic = ChooseMethod("isotropic").apply(near)
     base = LiveBase.from_solution(run(MethodSolver().solve(isotropic.problem)).solution)
-    seen = []
+    seen: list[Progress] = []
     command = run(move_to_validity(isotropic, base), seen.append)
     way = [step for step in seen if isinstance(step, Moving)]
     assert all(step.field is not None and step.field.surface is base.surface for step in way)
@@ -62,7 +62,9 @@ def test_the_way_to_validity_can_be_drawn(near: Document) -> None:
     moved = command.apply(isotropic)
     assert command.name == "make valid"
     assert run(MethodSolver().solve(moved.problem)).solution.valid
-    assert np.abs(way[-1].defects).max() < 1e-6
+    defects = way[-1].defects
+    assert defects is not None
+    assert np.abs(defects).max() < 1e-6
 
 
 def test_natural_singularities_bring_the_corners_they_belong_to() -> None:

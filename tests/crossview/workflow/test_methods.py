@@ -20,7 +20,7 @@ from solvers.errors import CrossviewError
 from solvers.fields.crossfield import CrossField
 from solvers.fields.integrable import FieldStep
 from solvers.primitives import BUILTIN
-from solvers.progress import run
+from solvers.progress import Progress, run
 from solvers.surface.refinement import refine_at
 from tests.command_line import CaseFile, Crossview, Ran
 
@@ -155,12 +155,14 @@ def test_other_turns_are_another_layout() -> None:
 def test_verify_solves_on_a_refined_mesh_and_tells_the_growth() -> None:
     options = replace(OPTIONS, verify=True)
     possible = solved(annulus("anisotropic", options=options))
+    assert possible.growth is not None
     assert 0.9 < possible.growth < 1.2
     assert possible.verdict.status == "valid"
     assert report(possible)["aspect_growth"] == possible.growth
     torus = (PlacedSingularity((1.4, 0, 0), 3), PlacedSingularity((0, 0.75, 0.31), 5))
     case = Case(Builtin("torus", {"n": 36}), torus, None, "anisotropic", options)
     forced = solved(case)
+    assert forced.growth is not None
     assert forced.growth > possible.growth + 0.1
     assert forced.verdict.status == "impossible"
 
@@ -178,7 +180,9 @@ def test_verify_and_turns_around_handles_are_refused(
 
 def test_verify_keeps_the_layout_where_the_defect_is_next_to_45_degrees() -> None:
     options = replace(OPTIONS, verify=True)
-    assert solved(annulus("anisotropic", 44.99, options)).growth < 1.5
+    growth = solved(annulus("anisotropic", 44.99, options)).growth
+    assert growth is not None
+    assert growth < 1.5
 
 
 class TestSizes:
@@ -234,7 +238,7 @@ class TestSizes:
     def test_a_wrong_map_is_refused(
         self, content: object, said: str, tmp_path: Path, crossview: Crossview, case_file: CaseFile
     ) -> None:
-        np.save(tmp_path / "sizes.npy", content, allow_pickle=True)
+        np.save(tmp_path / "sizes.npy", np.asarray(content), allow_pickle=True)
         ran = self.square("sizes.npy", tmp_path, crossview, case_file)
         assert ran.status == 2
         assert ran.err.count("\n") == 1
@@ -280,7 +284,7 @@ class TestSizes:
         assert field.energy < 1e-10
 
         def likeness(found: CrossField) -> float:
-            return np.corrcoef(found.H, found.surface.vertices[:, 0])[0, 1]
+            return float(np.corrcoef(found.H, found.surface.vertices[:, 0])[0, 1])
 
         assert likeness(field) > likeness(plain) + 0.1
 
@@ -336,15 +340,17 @@ class TestPipeline:
 
     def test_every_iteration_is_shown_and_the_last_can_be_kept(self) -> None:
         pipeline = Pipeline()
-        steps = []
+        steps: list[Progress] = []
         running = pipeline.solve(Problem.from_case(annulus("anisotropic", 37)))
         for step in running:
             steps.append(step)
             if isinstance(step, FieldStep):
                 break
         running.close()
-        kept = pipeline.so_far(steps[-1])
-        assert kept.field.energy == pytest.approx(steps[-1].energies[-1])
+        last = steps[-1]
+        assert isinstance(last, FieldStep)
+        kept = pipeline.so_far(last)
+        assert kept.field.energy == pytest.approx(last.energies[-1])
         told = report(kept)
         assert not told["converged"]
         assert told["verdict"] == "suspect"
@@ -352,9 +358,11 @@ class TestPipeline:
         fractions = [step.fraction for step in steps]
         assert fractions == sorted(fractions)
 
-    def test_nothing_can_be_kept_of_nothing(self) -> None:
+    def test_nothing_can_be_kept_of_nothing(self, anisotropic: Solution) -> None:
+        integrated = anisotropic.integrated
+        assert integrated is not None
         with pytest.raises(CrossviewError, match="nothing has been solved"):
-            Pipeline().so_far(FieldStep("", 0.0, (), None))
+            Pipeline().so_far(FieldStep("", 0.0, (), integrated))
 
     def test_wrong_turns_are_told(self) -> None:
         with pytest.raises(CrossviewError, match="2 turns are given for 1 holonomy conditions"):

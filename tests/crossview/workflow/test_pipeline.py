@@ -12,7 +12,7 @@ from crossview.cases.model import Builtin, Case, Options, PlacedCorner, PlacedSi
 from crossview.workflow.pipeline import Pipeline, solve_case
 from crossview.workflow.problem import Problem
 from solvers.errors import SingularityError
-from solvers.progress import run
+from solvers.progress import Progress, run
 from solvers.singularities.budget import Singularity
 
 
@@ -75,14 +75,14 @@ def test_singularities_become_vertices_where_they_were_placed() -> None:
 
 def test_a_missed_budget_is_told_before_anything_is_computed() -> None:
     problem = Problem.from_case(annulus(3, 3))
-    steps = []
+    steps: list[Progress] = []
     with pytest.raises(SingularityError, match=r"2 of 0: add 2 valence 5 or .* or make #2"):
         run(Pipeline().solve(problem), steps.append)
     assert steps == []
 
 
 def test_progress_grows_and_names_its_stages() -> None:
-    steps = []
+    steps: list[Progress] = []
     (solution,) = run(solve_case(annulus(3, 5)), steps.append)
     fractions = [step.fraction for step in steps]
     assert fractions == sorted(fractions)
@@ -103,6 +103,7 @@ def test_a_problem_becomes_the_case_it_came_from() -> None:
         assert (one.valence, one.locked) == (other.valence, other.locked)
         # the annulus is a polygon: places move to it
         assert np.allclose(one.position, other.position, atol=1e-12)
+    assert again.corners is not None
     assert again.corners[0].index == 1
     assert np.allclose(again.corners[0].position, corner.position)
 

@@ -129,7 +129,7 @@ def test_what_is_slightly_off_is_refined() -> None:
 
     def other(matrix: csc_array) -> Callable[[FloatArray], FloatArray]:
         used.append(matrix)
-        return exact.solve
+        return lambda right: exact.solve(right)
 
     expected = np.random.default_rng(0).normal(size=matrix.shape[0])
     solution = Factorization(matrix, [slightly_off, other]).solve(matrix @ expected)

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from solvers.errors import CrossviewError
 from solvers.fields.aligned import AlignedField, IntegratedField, aligned_field
@@ -16,7 +17,7 @@ from solvers.fields.prepared import prepare
 from solvers.fields.verdict import judge
 from solvers.maps.seamless import seamless_map
 from solvers.primitives import BUILTIN
-from solvers.progress import run
+from solvers.progress import Progress, run
 from solvers.singularities.budget import Singularity, default_corners
 from solvers.surface.refinement import refine_at
 from solvers.surface.triangulation import QUARTER, wrap
@@ -221,7 +222,7 @@ def test_sizes_follow_the_map_where_nothing_hinders() -> None:
         (np.r_[1.0, 0.0, np.ones(287)], r"a size is not positive and finite \(sizes, vertex 1\)"),
     ],
 )
-def test_bad_size_maps_are_refused(sizes: object, message: str) -> None:
+def test_bad_size_maps_are_refused(sizes: NDArray[np.float64], message: str) -> None:
     surface = BUILTIN["square"](n=16)
     assert surface.n_vertices == 289
     with pytest.raises(CrossviewError, match=message):
@@ -239,12 +240,13 @@ def test_the_papers_alternation_falls_steadily_and_stalls_far_from_validity() ->
 def test_the_history_is_what_the_steps_have_shown() -> None:
     start = aligned(SURFACES["annulus"](), random_configuration(SURFACES["annulus"](), seed=4))
     for solver in (anisotropic_field(start), alternating_field(start)):
-        steps: list[FieldStep] = []
-        end = run(solver, lambda step, steps=steps: steps.append(step))
+        shown: list[Progress] = []
+        end = run(solver, shown.append)
         history = end.field.convergence.energies
-        assert steps[-1].energies == history[: len(steps[-1].energies)]
+        last = [step for step in shown if isinstance(step, FieldStep)][-1]
+        assert last.energies == history[: len(last.energies)]
         assert history[-1] == pytest.approx(end.field.energy, abs=1e-12)
-        assert len(history) <= len(steps) + 2
+        assert len(history) <= len(shown) + 2
 
 
 @pytest.mark.parametrize("name", ["annulus", "plate", "double_torus"])
@@ -267,7 +269,7 @@ def test_each_step_can_be_shown_as_a_field() -> None:
     start = aligned(surface, random_configuration(surface, seed=4))
     shown: list[FieldStep] = []
     for solver in (anisotropic_field(start), alternating_field(start)):
-        steps = []
+        steps: list[Progress] = []
         run(solver, steps.append)
         shown.append(next(s for s in steps if isinstance(s, FieldStep)))
     for step in shown:
@@ -313,7 +315,7 @@ def test_triangles_turned_over_at_singularities_are_mended() -> None:
     places = [surface.closest_point(p) for p in np.stack([x, y, 0 * x], axis=1)]
     refined = refine_at(surface, places, levels=0)
     start = aligned(
-        refined.surface, at_vertices(refined.surface, refined.vertices, [3] * 4 + [5] * 4)
+        refined.surface, at_vertices(refined.surface, refined.vertices.tolist(), [3] * 4 + [5] * 4)
     )
     mapped = seamless_map(run(anisotropic_field(start)))
     assert len(mapped.flipped) == 0

@@ -78,14 +78,14 @@ def exact_disk(x: np.ndarray, places: np.ndarray, indices: np.ndarray) -> np.nda
     z, w = x[:, 0] + 1j * x[:, 1], places[:, 0] + 1j * places[:, 1]
     with np.errstate(divide="ignore"):
         parts = np.log(np.abs(z[:, None] - w)) + np.log(np.abs(1 - z[:, None] * w.conj()))
-    return parts @ indices / 4
+    return np.asarray(parts @ indices / 4)
 
 
 def exact_sphere(x: np.ndarray, places: np.ndarray, indices: np.ndarray) -> np.ndarray:
     """H on the unit sphere: the logarithm of the chord to each singularity."""
     with np.errstate(divide="ignore"):
         chord = np.log(np.linalg.norm(x[:, None] - places[None], axis=2))
-    return chord @ indices / 4
+    return np.asarray(chord @ indices / 4)
 
 
 Exact = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]

@@ -1,5 +1,7 @@
 """Natural singularities: the budget always, and the anticube on the sphere."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -128,6 +130,6 @@ def test_a_cone_of_features_gathers_singularities_at_its_corners() -> None:
 @pytest.mark.parametrize(
     "wrong", [{"alignment": "symmetry"}, {"alignment": "curvature", "weight": -1.0}]
 )
-def test_wrong_options_are_refused(wrong: dict) -> None:
+def test_wrong_options_are_refused(wrong: dict[str, Any]) -> None:
     with pytest.raises(CrossviewError, match=r"smoothness, curvature|weight"):
         run(natural_singularities(SURFACES["disk"](), **wrong))

@@ -1,10 +1,11 @@
 """Fields with layouts that the tests of separatrices, layouts and quads share."""
 
 import itertools
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import cache
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from solvers.features.dihedral import sharp_edges
 from solvers.features.edges import Features
@@ -20,7 +21,9 @@ from solvers.surface.trisurface import TriSurface
 from tests.solvers.suite import separated
 
 
-def at_places(surface: TriSurface, places: Sequence, valences: Sequence[int]) -> list[Singularity]:
+def at_places(
+    surface: TriSurface, places: Iterable[ArrayLike], valences: Sequence[int]
+) -> list[Singularity]:
     return [Singularity(surface.closest_point(p), k) for p, k in zip(places, valences, strict=True)]
 
 
@@ -36,7 +39,7 @@ def integrated(
 
 
 def cube_corners() -> np.ndarray:
-    return np.array(list(itertools.product((-1, 1), repeat=3))) / np.sqrt(3)
+    return np.asarray(np.array(list(itertools.product((-1, 1), repeat=3))) / np.sqrt(3))
 
 
 def cube_sphere() -> IntegratedField:

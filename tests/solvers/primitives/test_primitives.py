@@ -50,7 +50,7 @@ TOPOLOGY = {
 
 
 def volume(surface: TriSurface) -> float:
-    return np.einsum("ij,ij->", surface.area_vectors, surface.barycentres) / 3
+    return float(np.einsum("ij,ij->", surface.area_vectors, surface.barycentres)) / 3
 
 
 def test_every_builtin_surface_is_listed_here() -> None:
@@ -122,7 +122,7 @@ def mapped(surface: TriSurface, rotation: Rotation) -> NDArray[np.int64]:
     turned = surface.vertices @ rotation.as_matrix().T
     distance = np.linalg.norm(turned[:, None] - surface.vertices[None], axis=2)
     assert distance.min(axis=1).max() < 1e-12
-    return distance.argmin(axis=1)
+    return np.asarray(distance.argmin(axis=1))
 
 
 def assert_symmetric(surface: TriSurface, rotation: Rotation) -> None:

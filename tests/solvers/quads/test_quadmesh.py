@@ -68,8 +68,8 @@ def broken(mesh: QuadMesh, how: str) -> QuadMesh:
     if how == "a vertex twice":
         quads[0, 1] = quads[0, 0]
     if how == "two vertices made one":
-        inner = np.flatnonzero(~mesh.on_boundary)
-        quads[quads == inner[-1]] = inner[0]
+        numbers = np.flatnonzero(~mesh.on_boundary)
+        quads[quads == numbers[-1]] = numbers[0]
     return replace(mesh, quads=quads)
 
 

@@ -59,7 +59,7 @@ def test_opposite_sides_are_equal_and_no_arc_is_without_quads(
 def test_whole_lengths_are_kept(name: str) -> None:
     t = LAYOUTS[name]
     whole = quantize(t, 0.3).counts
-    scaled = replace(t, lengths=0.25 * whole)
+    scaled = replace(t, lengths=np.asarray(0.25 * whole))
     again = quantize(scaled, 0.25)
     assert (again.counts == whole).all()
     assert again.deviation == pytest.approx(0, abs=1e-9)
@@ -126,4 +126,4 @@ def test_edge_lengths_that_make_no_mesh_are_refused(edge_length: float) -> None:
 def test_numbers_of_quads_that_make_no_mesh_are_refused() -> None:
     for n in (0, -3, 10**9, 20.5, True):
         with pytest.raises(CrossviewError, match="number of quads must be a whole number from 1"):
-            quantize_to(LAYOUTS["one"], n)
+            quantize_to(LAYOUTS["one"], n)  # type: ignore[arg-type]

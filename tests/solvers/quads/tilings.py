@@ -48,7 +48,8 @@ def tiling(
     number = {place: i for i, place in enumerate(places)}
     everywhere = [(x + shift, y) for x, y in places for shift in shifts]
     arcs: dict[tuple[float, float, int], int] = {}  # by middle and direction
-    ends, lengths, offsets, halfarcs = [], [], [0], []
+    ends: list[tuple[int, int]] = []
+    lengths, offsets, halfarcs = [], [0], []
     for left, bottom, right, top in tiles:
         for start, end in pairwise(
             [(left, bottom), (right, bottom), (right, top), (left, top), (left, bottom)]

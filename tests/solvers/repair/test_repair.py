@@ -167,7 +167,7 @@ def test_duplicate_triangles_are_named_then_dropped(ball: TriSurface) -> None:
 
 def test_a_triangle_flat_along_its_neighbours_edge_is_flipped_away() -> None:
     # corner 4 lies on the edge 1-2: the square's lower right half is split by a flat triangle
-    vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0.5, 0.5, 0]]
+    vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0.5, 0.5, 0]])
     faces = [[0, 1, 4], [0, 4, 2], [4, 1, 2], [1, 3, 2]]
     with pytest.raises(SurfaceError, match="degenerate") as caught:
         repair(vertices, faces)
@@ -180,7 +180,7 @@ def test_a_triangle_flat_along_its_neighbours_edge_is_flipped_away() -> None:
 
 
 def test_a_flat_triangle_on_the_boundary_is_dropped() -> None:
-    vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0.5, 0.5, 0]]
+    vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0.5, 0.5, 0]])
     faces = [[0, 1, 3], [0, 3, 2], [3, 1, 2]]
     surface = repair(vertices, faces, aggressive=True).surface
     assert surface.n_faces == 2
@@ -252,7 +252,8 @@ def test_a_surface_of_nothing_but_flat_triangles_is_empty_after_repair() -> None
 
 def test_a_soup_that_shrinks_to_nothing_is_empty() -> None:
     """One stray corner so far away that all others count as the same place."""
-    vertices, faces = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1e30, 0, 0]], [[0, 1, 2], [1, 2, 3]]
+    vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1e30, 0, 0]])
+    faces = [[0, 1, 2], [1, 2, 3]]
     for make in (repair, repair_each):
         with pytest.raises(SurfaceError, match="empty"):
             make(vertices, faces, merge=True)

@@ -114,7 +114,7 @@ def test_mirror_images_and_turns_on_a_square() -> None:
     quarter = turned(SQUARE, start, 2, np.pi / 2)
     np.testing.assert_allclose(where(SQUARE, quarter), x[:, [1, 0, 2]] * [-1, 1, 1], atol=1e-9)
     assert [s.valence for s in quarter] == [3, 5]
-    full = start
+    full: Sequence[Singularity] = start
     for _ in range(4):
         full = turned(SQUARE, full, 2, np.pi / 2)
     np.testing.assert_allclose(where(SQUARE, full), x, atol=1e-9)

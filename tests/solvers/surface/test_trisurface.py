@@ -1,5 +1,7 @@
 """The surface: Gauss-Bonnet, topology, places, and every bad input refused with its elements."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -87,7 +89,7 @@ SQUARE = [[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
 HALVES = [[0, 1, 2], [0, 2, 3]]
 TENT = [[0.0, 0, 0], [1, 0, 0], [0.5, 1, 0], [0.5, -1, 0], [0.5, 0, 1]]
 
-BAD = {
+BAD: dict[str, tuple[Any, Any, str, list[Any]]] = {
     "empty": (SQUARE, np.zeros((0, 3)), "the surface is empty", []),
     "not finite": ([*SQUARE[:3], [0, np.nan, 0]], HALVES, "not finite", [3]),
     "index too large": (SQUARE, [[0, 1, 2], [0, 2, 9]], r"outside 0\.\.3", [1]),
@@ -127,7 +129,7 @@ def test_bad_surfaces_are_refused_by_name_and_element(case: str) -> None:
 @pytest.mark.parametrize("place", [0.0, 1e-3, 0.5])
 def test_slivers_that_are_accepted_are_solved_on(gap: float, place: float) -> None:
     """A vertex next to the diagonal of a square, and next to its end or not."""
-    vertices = [*SQUARE, [place + gap, place + 3 * gap, 0]]
+    vertices = np.array([*SQUARE, [place + gap, place + 3 * gap, 0]])
     surface = TriSurface(vertices, [[0, 1, 2], [0, 2, 4], [0, 4, 3], [4, 2, 3]])
     field = IsotropicSolver(surface).solve([])
     assert np.ptp(field.H) < 1e-7

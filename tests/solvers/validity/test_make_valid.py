@@ -1,6 +1,6 @@
 """Straight walks, and singularities moved to where every condition holds."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import pytest
@@ -56,7 +56,7 @@ def test_a_walk_around_the_sphere_comes_home() -> None:
             assert end @ surface.position(start) == pytest.approx(cosine, abs=0.01)
 
 
-CASES = {
+CASES: dict[str, tuple[Callable[[], TriSurface], list[int], float]] = {
     "annulus": (lambda: BUILTIN["annulus"](n=64), [3, 5] * 3, 0.15),
     "plate": (lambda: BUILTIN["plate_with_holes"](holes=3, edge_length=0.15), [3, 3, 5, 5], 0.25),
     "torus": (lambda: BUILTIN["torus"](n=48), [3, 3, 5, 5], 0.2),
@@ -144,12 +144,14 @@ def test_what_helps_is_offered_and_was_tried() -> None:
         error = raised.value
         assert [type(remedy) for remedy in error.remedies] == kinds
         pair = error.remedies[0]
+        assert isinstance(pair, PlaceAnew)
         assert pair.label.startswith("Add a pair of 3 and 5 near (")
         assert pair.words in str(error)
         assert len(pair.singularities) == len(singularities) + 2
         assert fresh(surface, pair.singularities) < 1e-6
     assert error.condition == 0
     assert error.remedies[1] == ANISOTROPIC
+    assert isinstance(pair, PlaceAnew)
     assert list(pair.singularities[:-2]) == locked
 
 
@@ -158,11 +160,11 @@ def test_locked_singularities_stay_and_the_way_is_shown() -> None:
     singularities = [
         Singularity(s.point, s.valence, locked=i < 3) for i, s in enumerate(singularities)
     ]
-    shown: list[Moved] = []
+    shown: list[Progress] = []
     end = run(make_valid(surface, singularities), shown.append)
     assert [s.point for s in end.singularities[:3]] == [s.point for s in singularities[:3]]
-    assert all(isinstance(step, Moved) for step in shown)
-    worst = [np.abs(step.defects).max() for step in shown]
+    worst = [np.abs(step.defects).max() for step in shown if isinstance(step, Moved)]
+    assert len(worst) == len(shown)
     assert worst[-1] < 1e-7 < worst[0]
 
 
