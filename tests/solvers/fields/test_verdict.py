@@ -1,6 +1,7 @@
 """One set of limits for every judgement: what is valid is never refused."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -53,8 +54,8 @@ def test_what_is_off_by_the_tolerance_is_refused(
 ) -> None:
     limits = Limits(float(np.radians(tolerance)))
     for share, status in ((0.99, {"valid"}), (1.01, {"suspect", "impossible"}), (np.nan, None)):
-        angles = np.array([0.0, -share * limits.angle])
-        verdict = judge(replace(field, **{measure: angles}), 0, limits=limits)
+        off: dict[str, Any] = {measure: np.array([0.0, -share * limits.angle])}
+        verdict = judge(replace(field, **off), 0, limits=limits)
         if status is not None:
             assert verdict.status in status
         assert verdict.refused == (share != 0.99)
