@@ -4,17 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING
 
 from crossview.cases.model import METHODS
 from crossview.gui.actions import ActionSpec
 from crossview.gui.state import WindowState
+from crossview.gui.verbs import Verbs
 from crossview.scene import LAYERS
 from crossview.session.commands import METHOD_LABELS
 from crossview.session.moving import NATURAL_LABELS
-
-if TYPE_CHECKING:
-    from crossview.gui.main_window import MainWindow
 
 TOOL_VALENCES = (3, 5, 6, 8)
 
@@ -31,15 +28,8 @@ def _solvable(state: WindowState) -> bool:
     return state.document is not None and state.document.budget.satisfied
 
 
-def _tool(window: MainWindow, valence: int) -> None:
-    """Take the add tool for `valence`, or put it back when it is in hand."""
-    state = window.workspace.state
-    tool = None if state.tool == valence else valence
-    window.workspace.set(tool=tool, trial=None, mark_tool=None)
-
-
-def _any_tool(window: MainWindow) -> None:
-    _tool(window, window.workspace.state.any_valence)
+def _any_tool(verbs: Verbs) -> None:
+    verbs.workspace.take_tool(verbs.workspace.state.any_valence)
 
 
 def _is_any(state: WindowState) -> bool:
@@ -79,10 +69,10 @@ def _carried() -> tuple[ActionSpec, ...]:
     )
 
 
-def _with_selected(verb: Callable[[MainWindow, int], None], window: MainWindow) -> None:
-    index = window.workspace.state.selected
+def _with_selected(verb: Callable[[Verbs, int], None], verbs: Verbs) -> None:
+    index = verbs.workspace.state.selected
     if index is not None:
-        verb(window, index)
+        verb(verbs, index)
 
 
 def _tools() -> tuple[ActionSpec, ...]:
@@ -91,7 +81,7 @@ def _tools() -> tuple[ActionSpec, ...]:
             f"add-{valence}",
             f"Add valence {valence}",
             "Singularities",
-            partial(_tool, valence=valence),
+            lambda w, valence=valence: w.workspace.take_tool(valence),  # type: ignore[misc]
             (str(valence),),
             f"valence:{valence}",
             f"Click on the surface places a valence {valence}; again or Esc ends",
@@ -152,7 +142,7 @@ def _views() -> tuple[ActionSpec, ...]:
             f"view-{direction}",
             text,
             "View",
-            lambda w, direction=direction: w.viewport.look_from(direction),  # type: ignore[misc]
+            lambda w, direction=direction: w.look_from(direction),  # type: ignore[misc]
             enabled=_open,
         )
         for direction, text in views
@@ -165,7 +155,7 @@ def _layers() -> tuple[ActionSpec, ...]:
             f"layer-{kind.name}",
             f"Show {kind.label if kind.name == 'H' else kind.label.lower()}",
             "View",
-            lambda w, name=kind.name: w.layers_panel.toggle(name),  # type: ignore[misc]
+            lambda w, name=kind.name: w.workspace.toggle_layer(name),  # type: ignore[misc]
             checked=lambda s, name=kind.name: s.layers[name].visible,  # type: ignore[misc]
             separated=kind is LAYERS[0],
         )
@@ -236,7 +226,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ),
     ActionSpec(
         "edit", "Change valence…", "Singularities",
-        partial(_with_selected, lambda w, i: w.singularities_panel.edit(i)),
+        partial(_with_selected, lambda w, i: w.edit_valence(i)),
         ("Return", "Enter"),
         tip="Type another valence; also a double click", enabled=_selected, separated=True,
     ),
@@ -297,7 +287,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
     *_naturals(),
     ActionSpec(
         "along-curvature", "Along curvature", "Singularities",
-        lambda w: w.workspace.set(along_curvature=not w.state.along_curvature),
+        lambda w: w.workspace.set(along_curvature=not w.workspace.state.along_curvature),
         tip="Draw the crosses of natural singularities towards the directions of curvature",
         checked=lambda s: s.along_curvature, separated=True, submenu="Natural singularities",
     ),
@@ -321,18 +311,18 @@ ACTIONS: tuple[ActionSpec, ...] = (
         checked=lambda s: s.comparing and s.start is not None, separated=True,
     ),
     ActionSpec(
-        "fit", "Fit to window", "View", lambda w: w.viewport.fit(), ("F",), "fit",
+        "fit", "Fit to window", "View", lambda w: w.look_from("auto"), ("F",), "fit",
         "Show the whole surface", _open,
     ),
     *_views(),
     *_layers(),
     ActionSpec(
         "dark", "Dark scene", "View",
-        lambda w: w.workspace.set(dark=not w.state.dark), checked=lambda s: s.dark,
+        lambda w: w.workspace.set(dark=not w.workspace.state.dark), checked=lambda s: s.dark,
         separated=True,
     ),
     ActionSpec(
-        "reset-docks", "Reset panels", "View", lambda w: w.arrangement.reset(),
+        "reset-docks", "Reset panels", "View", lambda w: w.reset_docks(),
         tip="Put all panels back to where they stand at first",
     ),
     ActionSpec(

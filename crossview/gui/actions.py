@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from PySide6.QtGui import QAction, QIcon, QKeySequence
+from PySide6.QtWidgets import QWidget
 
 from crossview.gui.icons import icon, valence_icon
 from crossview.gui.state import WindowState
-
-if TYPE_CHECKING:
-    from crossview.gui.main_window import MainWindow
+from crossview.gui.verbs import Verbs
 
 
 def _always(_: WindowState) -> bool:
@@ -32,7 +30,7 @@ class ActionSpec:
     menu : str
         Title of the menu it is in.
     run : callable
-        Does it to the window.
+        Does it.
     keys : tuple of str
         Shortcuts, the first shown.
     icon : str
@@ -52,7 +50,7 @@ class ActionSpec:
     name: str
     text: str
     menu: str
-    run: Callable[[MainWindow], object]
+    run: Callable[[Verbs], object]
     keys: tuple[str, ...] = ()
     icon: str = ""
     tip: str = ""
@@ -63,11 +61,21 @@ class ActionSpec:
 
 
 class Actions:
-    """The QActions of a window, kept in step with its state."""
+    """The QActions of a window, kept in step with its state.
 
-    def __init__(self, table: Iterable[ActionSpec], window: MainWindow) -> None:
+    Parameters
+    ----------
+    table : iterable of ActionSpec
+    verbs : Verbs
+        What they call.
+    parent : QWidget
+        Where their shortcuts are heard.
+    """
+
+    def __init__(self, table: Iterable[ActionSpec], verbs: Verbs, parent: QWidget) -> None:
+        self._verbs = verbs
         self.specs = {spec.name: spec for spec in table}
-        self.by_name = {name: self._make(spec, window) for name, spec in self.specs.items()}
+        self.by_name = {name: self._make(spec, parent) for name, spec in self.specs.items()}
 
     def show(self, state: WindowState) -> None:
         """Enable, check and name the actions for `state`."""
@@ -79,8 +87,8 @@ class Actions:
         self.by_name["undo"].setText(_named("Undo", state.undo_name))
         self.by_name["redo"].setText(_named("Redo", state.redo_name))
 
-    def _make(self, spec: ActionSpec, window: MainWindow) -> QAction:
-        action = QAction(spec.text, window)
+    def _make(self, spec: ActionSpec, parent: QWidget) -> QAction:
+        action = QAction(spec.text, parent)
         action.setObjectName(spec.name)
         action.setShortcuts([QKeySequence(key) for key in spec.keys])
         action.setCheckable(spec.checked is not None)
@@ -89,13 +97,13 @@ class Actions:
         if spec.icon:
             action.setIcon(action_icon(spec.icon))
         # the action's own state follows the window's, never the other way round
-        action.triggered.connect(lambda: self._run(spec, window))
-        window.addAction(action)
+        action.triggered.connect(lambda: self._run(spec))
+        parent.addAction(action)
         return action
 
-    def _run(self, spec: ActionSpec, window: MainWindow) -> None:
-        spec.run(window)
-        self.show(window.state)
+    def _run(self, spec: ActionSpec) -> None:
+        spec.run(self._verbs)
+        self.show(self._verbs.workspace.state)
 
 
 def action_icon(name: str) -> QIcon:

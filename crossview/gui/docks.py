@@ -2,35 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QDockWidget, QLabel, QTabWidget, QWidget
-
-if TYPE_CHECKING:
-    from crossview.gui.main_window import MainWindow
+from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QTabWidget, QWidget
 
 LEFT, RIGHT = Qt.DockWidgetArea.LeftDockWidgetArea, Qt.DockWidgetArea.RightDockWidgetArea
 LEFT_WIDTH, RIGHT_WIDTH = 316, 232
 LEFT_LEAST, RIGHT_LEAST = 272, 208
+LEFT_COLUMN = ("Surface", "Singularities", "Validity")
 TABS = ("Convergence", "Quads", "Export")
 """Docks that share one place, the first in front."""
 
 
-def add_docks(window: MainWindow) -> dict[str, QDockWidget]:
-    """Stand the panels of `window` in docks; return these by title."""
-    places: tuple[tuple[str, QWidget, Qt.DockWidgetArea], ...] = (
-        ("Surface", window.surface_panel, LEFT),
-        ("Singularities", window.singularities_panel, LEFT),
-        ("Validity", window.validity_panel, LEFT),
-        ("Layers", window.layers_panel, RIGHT),
-        ("Convergence", window.convergence_panel, RIGHT),
-        ("Quads", window.quads_panel, RIGHT),
-        ("Export", window.export_panel, RIGHT),
-    )
+def add_docks(window: QMainWindow, panels: Mapping[str, QWidget]) -> dict[str, QDockWidget]:
+    """Stand panels, given by title from the top left down, in docks; return these by title."""
     docks = {}
-    for title, panel, area in places:
+    for title, panel in panels.items():
+        area = LEFT if title in LEFT_COLUMN else RIGHT
         dock = QDockWidget(title, window)
         dock.setObjectName(title)
         panel.setAutoFillBackground(True)
@@ -47,14 +37,15 @@ def add_docks(window: MainWindow) -> dict[str, QDockWidget]:
     return docks
 
 
-def size_docks(window: MainWindow) -> None:
+def size_docks(window: QMainWindow, docks: Mapping[str, QDockWidget]) -> None:
     """Give the docks of a shown window their first sizes: what has little to say, little room."""
-    docks, height = window.docks, window.centre.height()
+    middle = window.centralWidget() or window
+    height = middle.height()
     window.resizeDocks(
         [docks["Surface"], docks["Layers"]], [LEFT_WIDTH, RIGHT_WIDTH], Qt.Orientation.Horizontal
     )
     for column, shares in (
-        (("Surface", "Singularities", "Validity"), (0.27, 0.39, 0.34)),
+        (LEFT_COLUMN, (0.27, 0.39, 0.34)),
         (("Layers", "Convergence"), (0.52, 0.48)),
     ):
         window.resizeDocks(

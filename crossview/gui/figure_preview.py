@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 from PySide6.QtCore import QObject, QSize, Qt, QTimer
 from PySide6.QtGui import QImage, QPainter, QPalette, QPixmap
 
 from crossview.export.preview import Preview
-from crossview.gui.scene_view import figure_view
-
-if TYPE_CHECKING:
-    from crossview.gui.main_window import MainWindow
+from crossview.gui.figure import Figure
+from crossview.gui.panels import ExportPanel
 
 REST_MS = 250
 """How long nothing may change before it is drawn."""
@@ -19,21 +17,26 @@ LEAST_WIDTH = 64
 
 
 class FigurePreview(QObject):
-    """Draws what a figure would show, for as long as the Export panel is in front."""
+    """Draws what a figure would show, for as long as the Export panel is in front.
 
-    def __init__(self, window: MainWindow) -> None:
-        super().__init__(window)
-        self._window = window
-        self._panel = window.export_panel
+    Parameters
+    ----------
+    panel : ExportPanel
+        Where it is shown.
+    figure : callable
+        Returns what would be written now; None: nothing.
+    """
+
+    def __init__(self, panel: ExportPanel, figure: Callable[[], Figure | None]) -> None:
+        super().__init__(panel)
+        self._panel = panel
+        self._figure = figure
         self._preview: Preview | None = None
         self._rest = QTimer(self)
         self._rest.setSingleShot(True)
         self._rest.setInterval(REST_MS)
         self._rest.timeout.connect(self._draw)
-        self._panel.changed.connect(self._ask)
-        window.docks["Export"].visibilityChanged.connect(self._ask)
-        window.workspace.changed.connect(self._ask)
-        window.viewport.frame_drawn.connect(self._ask)  # the camera may have turned
+        panel.changed.connect(self.ask)
 
     def close(self) -> None:
         """Free what it draws with."""
@@ -42,7 +45,8 @@ class FigurePreview(QObject):
             self._preview.close()
             self._preview = None
 
-    def _ask(self) -> None:
+    def ask(self) -> None:
+        """Draw anew once nothing changes any more."""
         if self._seen():
             self._rest.start()
 
@@ -51,16 +55,16 @@ class FigurePreview(QObject):
         return not self._panel.visibleRegion().isEmpty()
 
     def _draw(self) -> None:
-        window, label = self._window, self._panel.preview
-        if not self._seen() or window.state.document is None:
+        label = self._panel.preview
+        figure = self._figure() if self._seen() else None
+        if figure is None:
             label.clear()
             return
-        settings, ratio = self._panel.settings, label.devicePixelRatioF()
+        settings, ratio = figure.settings, label.devicePixelRatioF()
         fitted = QSize(*settings.size).scaled(label.size(), Qt.AspectRatioMode.KeepAspectRatio)
         width = max(round(fitted.width() * ratio), LEAST_WIDTH)
         preview = self._for(settings.size, width)
-        view = figure_view(window.state, settings, window.viewport.held.ranges)
-        image = preview.image(view, window.viewport.scene.camera).convert("RGBA")
+        image = preview.image(figure.view, figure.camera).convert("RGBA")
         drawn = QImage(image.tobytes(), *image.size, QImage.Format.Format_RGBA8888)
         pixmap = QPixmap.fromImage(drawn.copy())
         with QPainter(pixmap) as painter:  # where the figure ends

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from PySide6.QtWidgets import QFileDialog
+from PySide6.QtWidgets import QFileDialog, QStatusBar, QWidget
 
-from crossview.export.figures import render_view
 from crossview.export.meshes import write_mesh
+from crossview.gui.figure import Figure
 from crossview.gui.recent import remember
-from crossview.gui.scene_view import figure_view
+from crossview.gui.workspace import Workspace
 from crossview.io import SUFFIXES
 from crossview.session.document import Document
-
-if TYPE_CHECKING:
-    from crossview.gui.main_window import MainWindow
 
 FIGURES = "PNG picture (*.png);;SVG drawing (*.svg);;PDF drawing (*.pdf)"
 MESHES = ";;".join(
@@ -34,17 +32,37 @@ SAID_MS = 4000
 
 
 class Files:
-    """File verbs of a window."""
+    """File verbs of a window.
 
-    def __init__(self, window: MainWindow) -> None:
-        self._window = window
+    Parameters
+    ----------
+    workspace : Workspace
+    figure : callable
+        Returns what a figure would show now; None: nothing.
+    parent : QWidget
+        What the dialogs stand over.
+    status : QStatusBar
+        Says what has been written.
+    """
+
+    def __init__(
+        self,
+        workspace: Workspace,
+        figure: Callable[[], Figure | None],
+        parent: QWidget,
+        status: QStatusBar,
+    ) -> None:
+        self._workspace = workspace
+        self._figure = figure
+        self._parent = parent
+        self._status = status
         self._target = ""
         self._asked = ""
 
     def open(self, target: str) -> None:
         """Open a file, a gallery case or a built-in surface."""
         self._asked = target
-        self._window.workspace.open(target)
+        self._workspace.open(target)
 
     def opened(self, document: Document) -> None:
         """Remember what was opened; among the recent ones, when it is a file."""
@@ -55,13 +73,13 @@ class Files:
     def reopen(self, component: str | None = None, repair: bool = False) -> None:
         """Open the same again with other choices."""
         self._asked = self._target
-        self._window.workspace.open(self._target, component, repair)
+        self._workspace.open(self._target, component, repair)
 
     def ask_open(self) -> None:
         """Ask for a surface or a case and open it."""
         patterns = " ".join(f"*{suffix}" for suffix in sorted(SUFFIXES))
         path, _ = QFileDialog.getOpenFileName(
-            self._window,
+            self._parent,
             "Open a surface or a case",
             self._folder(),
             f"Surfaces and cases ({patterns} *.json);;All files (*)",
@@ -72,66 +90,58 @@ class Files:
     def ask_save(self) -> None:
         """Ask where to write the case, and write it."""
         path, _ = QFileDialog.getSaveFileName(
-            self._window, "Save the case", self._suggested(".json"), "Cases (*.json)"
+            self._parent, "Save the case", self._suggested(".json"), "Cases (*.json)"
         )
         if path:
             self.save(Path(path))
 
     def save(self, path: Path) -> None:
         """Write the present document as a case file."""
-        document = self._window.workspace.state.document
+        document = self._workspace.state.document
         if document is not None:
-            self._window.workspace.attempt("save", lambda: document.to_case().save(path))
+            self._workspace.attempt("save", lambda: document.to_case().save(path))
 
     def ask_figure(self) -> None:
         """Ask where to write the figure, and write it."""
         path, _ = QFileDialog.getSaveFileName(
-            self._window, "Export the figure", self._suggested(".png"), FIGURES
+            self._parent, "Export the figure", self._suggested(".png"), FIGURES
         )
         if path:
             self.export(Path(path))
 
     def export(self, path: Path) -> None:
         """Write what is shown, as it is seen, with the settings of the Export panel."""
-        window = self._window
-        settings = window.export_panel.settings
-
-        def write() -> None:
-            render_view(
-                figure_view(window.state, settings, window.viewport.held.ranges),
-                path,
-                size=settings.size,
-                scale=settings.scale,
-                camera=window.viewport.scene.camera,
-                dpi=settings.dpi,
-            )
-            window.statusBar().showMessage(f"Wrote {path}", SAID_MS)
-
-        window.workspace.attempt("export", write)
+        figure = self._figure()
+        if figure is not None:
+            self._write(figure.write, path)
 
     def ask_save_quads(self) -> None:
         """Ask where to write the quads, and write them."""
         path, _ = QFileDialog.getSaveFileName(
-            self._window, "Save the quads", self._suggested(".obj"), MESHES
+            self._parent, "Save the quads", self._suggested(".obj"), MESHES
         )
         if path:
             self.save_quads(Path(path))
 
     def save_quads(self, path: Path) -> None:
         """Write the quads that are shown."""
-        quads = self._window.workspace.state.made.quads
+        quads = self._workspace.state.made.quads
+        if quads is not None:
+            self._write(partial(write_mesh, quads), path)
 
-        def write() -> None:
-            if quads is not None:
-                write_mesh(quads, path)
-                self._window.statusBar().showMessage(f"Wrote {path}", SAID_MS)
+    def _write(self, write: Callable[[Path], object], path: Path) -> None:
+        """Write a file and say so, or why not."""
 
-        self._window.workspace.attempt("export", write)
+        def verb() -> None:
+            write(path)
+            self._status.showMessage(f"Wrote {path}", SAID_MS)
+
+        self._workspace.attempt("export", verb)
 
     def _folder(self) -> str:
         return str(Path(self._target).parent) if Path(self._target).is_file() else str(Path.home())
 
     def _suggested(self, suffix: str) -> str:
-        document = self._window.workspace.state.document
+        document = self._workspace.state.document
         name = "crossview" if document is None else document.name
         return str(Path(self._folder()) / f"{name}{suffix}")

@@ -3,26 +3,20 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QPoint, QSize
-from PySide6.QtGui import (
-    QCloseEvent,
-    QDragEnterEvent,
-    QDropEvent,
-    QResizeEvent,
-    QShowEvent,
-)
-from PySide6.QtWidgets import QMainWindow, QMessageBox, QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QShowEvent
+from PySide6.QtWidgets import QMainWindow, QMessageBox
 
 import crossview
 from crossview.gui.action_table import ACTIONS
 from crossview.gui.actions import Actions
-from crossview.gui.arrangement import Arrangement
+from crossview.gui.centre import Centre
 from crossview.gui.docks import add_docks
-from crossview.gui.empty_state import EmptyState
+from crossview.gui.figure import Figure
 from crossview.gui.figure_preview import FigurePreview
 from crossview.gui.files import Files
-from crossview.gui.menus import Menus, make_toolbar
-from crossview.gui.message_bar import MessageBar
+from crossview.gui.menus import Menus
 from crossview.gui.method_box import MethodBox
+from crossview.gui.mouse import Mouse
 from crossview.gui.palette import Palette
 from crossview.gui.panels import (
     ConvergencePanel,
@@ -33,39 +27,15 @@ from crossview.gui.panels import (
     SurfacePanel,
     ValidityPanel,
 )
+from crossview.gui.scene_view import figure_view
 from crossview.gui.state import WindowState
 from crossview.gui.status import Status
+from crossview.gui.toolbar import fill_toolbar
+from crossview.gui.valence_box import ValenceBox
 from crossview.gui.viewport import Viewport
+from crossview.gui.window_geometry import WindowGeometry
 from crossview.gui.workspace import Workspace
 from crossview.session.document import Document
-
-
-class Centre(QWidget):
-    """The empty state or the viewport, and the message bar floating over them."""
-
-    def __init__(self, workspace: Workspace) -> None:
-        super().__init__()
-        self.empty = EmptyState()
-        self.viewport = Viewport(workspace)
-        self.stack = QStackedWidget()
-        self.stack.addWidget(self.empty)
-        self.stack.addWidget(self.viewport)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self.stack)
-        self.message_bar = MessageBar(workspace, self)
-
-    def show_state(self, old: WindowState, new: WindowState) -> None:
-        """Follow the window's state."""
-        nothing = new.document is None and new.faulty is None
-        self.stack.setCurrentWidget(self.empty if nothing else self.viewport)
-        self.viewport.show_state(old, new)
-        self.message_bar.show_state(old, new)
-
-    def resizeEvent(self, event: QResizeEvent) -> None:
-        """Keep the bar in its place."""
-        super().resizeEvent(event)
-        self.message_bar.place()
 
 
 class MainWindow(QMainWindow):
@@ -78,12 +48,13 @@ class MainWindow(QMainWindow):
         self.resize(QSize(1440, 900).boundedTo(self.screen().availableSize()))
         self.setAcceptDrops(True)
         self.workspace: Workspace = Workspace(self)
-        self.files: Files = Files(self)
+        self.files: Files = Files(self.workspace, self.figure, self, self.statusBar())
+        self.actions_table = Actions(ACTIONS, self, self)
+        named = self.actions_table.by_name
         self.centre: Centre = Centre(self.workspace)
         self.setCentralWidget(self.centre)
         self.viewport: Viewport = self.centre.viewport
-        self.actions_table = Actions(ACTIONS, self)
-        named = self.actions_table.by_name
+        self.mouse: Mouse = Mouse(self.viewport, self.workspace)
         self.surface_panel = SurfacePanel(self.workspace)
         self.singularities_panel: SingularitiesPanel = SingularitiesPanel(self.workspace, named)
         self.validity_panel = ValidityPanel(self.workspace, named["make-valid"])
@@ -91,25 +62,67 @@ class MainWindow(QMainWindow):
         self.convergence_panel = ConvergencePanel(named["compare"])
         self.quads_panel = QuadsPanel(named["mesh"], named["save-quads"])
         self.export_panel = ExportPanel(named["figure"])
-        self.docks = add_docks(self)
-        self.menus = Menus(self)
+        self.docks = add_docks(
+            self,
+            {
+                "Surface": self.surface_panel,
+                "Singularities": self.singularities_panel,
+                "Validity": self.validity_panel,
+                "Layers": self.layers_panel,
+                "Convergence": self.convergence_panel,
+                "Quads": self.quads_panel,
+                "Export": self.export_panel,
+            },
+        )
+        shown = [dock.toggleViewAction() for dock in self.docks.values()]
+        self.menus = Menus(self.menuBar(), named, shown, self.files.open)
         self.method_box: MethodBox = MethodBox(self.workspace)
-        self.toolbar = make_toolbar(self)
-        self.status = Status(self)
-        self.figure_preview = FigurePreview(self)
-        self.arrangement: Arrangement = Arrangement(self)
+        boxes = {"method": self.method_box, "any-valence": ValenceBox(self.workspace)}
+        fill_toolbar(self.addToolBar("Tools"), named, boxes)
+        self.status = Status(self.statusBar(), self.workspace, named["stop"])
+        self.figure_preview = FigurePreview(self.export_panel, self.figure)
+        self.window_geometry: WindowGeometry = WindowGeometry(self, self.docks)
+        self._connect()
+        self.actions_table.show(self.state)
+
+    def _connect(self) -> None:
+        """Let the parts hear each other."""
         self.workspace.changed.connect(self._show_state)
         self.workspace.opened.connect(self._opened)
-        self.viewport.menu_wanted.connect(self._show_menu)
-        self.viewport.edit_wanted.connect(self.singularities_panel.edit)
+        self.mouse.menu_wanted.connect(self._show_menu)
+        self.mouse.edit_wanted.connect(self.edit_valence)
+        self.mouse.hovered.connect(self.status.show_hover)
+        self.viewport.frame_drawn.connect(self.status.show_frame)
         self.centre.empty.chosen.connect(self.files.open)
         self.centre.empty.open_wanted.connect(self.files.ask_open)
-        self.actions_table.show(self.state)
+        self.docks["Export"].visibilityChanged.connect(self.figure_preview.ask)
+        self.workspace.changed.connect(self.figure_preview.ask)
+        self.viewport.frame_drawn.connect(self.figure_preview.ask)  # the camera may have turned
 
     @property
     def state(self) -> WindowState:
         """What the window shows."""
         return self.workspace.state
+
+    def figure(self) -> Figure | None:
+        """Return what a figure would show now; None while nothing is open."""
+        if self.state.document is None:
+            return None
+        settings = self.export_panel.settings
+        view = figure_view(self.state, settings.transparent, self.viewport.held.ranges)
+        return Figure(view, self.viewport.scene.camera, settings)
+
+    def edit_valence(self, index: int) -> None:
+        """Let the valence of singularity `index` be typed."""
+        self.singularities_panel.edit(index)
+
+    def look_from(self, camera: str) -> None:
+        """Look from one of the scene's preset directions; "auto": a good side."""
+        self.viewport.look_from(camera)
+
+    def reset_docks(self) -> None:
+        """Put all panels back to where they stand at first."""
+        self.window_geometry.reset()
 
     def show_palette(self) -> None:
         """Open the command palette."""
@@ -122,7 +135,7 @@ class MainWindow(QMainWindow):
 
     def add_pair(self) -> None:
         """Add a pair where the mouse is, where the menu was asked for, or where there is room."""
-        pick = self.viewport.under_menu or self.viewport.under_mouse
+        pick = self.mouse.under_menu or self.mouse.under_mouse
         self.workspace.pairs.add(None if pick is None else pick.point)
 
     def show_about(self) -> None:
@@ -136,8 +149,8 @@ class MainWindow(QMainWindow):
 
     def escape(self) -> None:
         """Put a dragged singularity back, else take the select tool."""
-        if not self.viewport.mouse.let_go():
-            self.workspace.set(tool=None, trial=None, mark_tool=None)
+        if not self.mouse.let_go():
+            self.workspace.put_tool_back()
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         """Take files."""
@@ -155,13 +168,14 @@ class MainWindow(QMainWindow):
     def showEvent(self, event: QShowEvent) -> None:
         """Arrange the docks once there is a size to share."""
         super().showEvent(event)
-        self.arrangement.show()
+        self.window_geometry.show()
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """End the background and free what VTK holds."""
-        self.arrangement.keep()
+        self.window_geometry.keep()
         self.workspace.close()
         self.figure_preview.close()
+        self.mouse.close()
         self.viewport.close_plotter()
         super().closeEvent(event)
 
@@ -186,7 +200,7 @@ class MainWindow(QMainWindow):
         before = None if old.document is None else old.document.surface
         after = None if new.document is None else new.document.surface
         if before is not after or old.faulty is not new.faulty:
-            self.viewport.fit()
+            self.viewport.look_from("auto")
 
     def _opened(self, document: Document) -> None:
         self.files.opened(document)

@@ -1,24 +1,19 @@
-"""Menus, toolbar and right-click menu, all from the table of actions."""
+"""The menu bar and the right-click menu, from the table of actions."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QLocale, QSize, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QMenu, QSizePolicy, QSpinBox, QToolBar, QToolButton, QWidget
+from PySide6.QtWidgets import QMenu, QMenuBar
 
 from crossview.cases.gallery import names, path_of
 from crossview.cases.model import METHODS, Case
-from crossview.gui.action_table import ACTIONS, LABELLED, TOOL_VALENCES, TOOLBAR
+from crossview.gui.action_table import ACTIONS, TOOL_VALENCES
 from crossview.gui.recent import forget_all, recent
-from crossview.session.commands import MAX_VALENCE, MIN_VALENCE
-
-if TYPE_CHECKING:
-    from crossview.gui.main_window import MainWindow
 
 SEARCHED = ("Natural singularities", "Mirror", "Rotate")
 """Submenus whose actions are in the palette: the others repeat some."""
@@ -26,31 +21,50 @@ MENUS = ("File", "Edit", "Surface", "Singularities", "Solve", "View", "Gallery",
 
 
 class Menus:
-    """The menu bar of a window."""
+    """The menus of a window.
 
-    def __init__(self, window: MainWindow) -> None:
-        self._window = window
+    Parameters
+    ----------
+    bar : QMenuBar
+        Filled here.
+    actions : mapping of str to QAction
+        All of the table, by name.
+    panels : iterable of QAction
+        Each shows or hides a panel.
+    open_target : callable
+        Opens a file or a gallery case.
+    """
+
+    def __init__(
+        self,
+        bar: QMenuBar,
+        actions: Mapping[str, QAction],
+        panels: Iterable[QAction],
+        open_target: Callable[[str], None],
+    ) -> None:
+        self._bar = bar
+        self._actions = actions
+        self._open = open_target
         self._menus: dict[str, QMenu] = {}
         self._submenus: dict[str, QMenu] = {}
         for title in MENUS:
-            self._menus[title] = window.menuBar().addMenu(f"&{title}")
+            self._menus[title] = bar.addMenu(f"&{title}")
         for spec in ACTIONS:
             menu = self._menus[spec.menu]
             if spec.separated:
                 menu.addSeparator()
             if spec.submenu:
                 menu = self._submenu(menu, spec.submenu)
-            menu.addAction(window.actions_table.by_name[spec.name])
-        self._recent = QMenu("Open recent", window)
-        file_menu = self._menus["File"]
-        file_menu.insertMenu(window.actions_table.by_name["save"], self._recent)
+            menu.addAction(actions[spec.name])
+        self._recent = QMenu("Open recent", bar)
+        self._menus["File"].insertMenu(actions["save"], self._recent)
         self.show_recent()
         gallery = self._menus["Gallery"]
         gallery.setToolTipsVisible(True)
         for name in names():
-            action = self._add(gallery, name, partial(window.files.open, name))
+            action = self._add(gallery, name, partial(open_target, name))
             action.setToolTip(Case.load(path_of(name)).title)
-        self._fill_view()
+        self._fill_view(panels)
 
     def menu(self, title: str) -> QMenu:
         """Return the menu of this title."""
@@ -68,9 +82,7 @@ class Menus:
         """Fill the menu of recent files anew."""
         self._recent.clear()
         for path in recent():
-            action = self._add(
-                self._recent, Path(path).name, partial(self._window.files.open, path)
-            )
+            action = self._add(self._recent, Path(path).name, partial(self._open, path))
             action.setToolTip(path)
         self._recent.setToolTipsVisible(True)
         self._recent.setEnabled(not self._recent.isEmpty())
@@ -79,26 +91,26 @@ class Menus:
 
     def scene_menu(self) -> QMenu:
         """Return the menu for a place of the scene without singularity."""
-        menu = QMenu(self._window)
+        menu = QMenu(self._bar)
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         tools = (f"add-{v}" for v in TOOL_VALENCES)
         for name in ("select", *tools, "add-any", "add-pair", "fit"):
-            menu.addAction(self._window.actions_table.by_name[name])
+            menu.addAction(self._actions[name])
         return menu
 
     def _forget(self) -> None:
         forget_all()
         self.show_recent()
 
-    def _fill_view(self) -> None:
+    def _fill_view(self, panels: Iterable[QAction]) -> None:
         view = self._menus["View"]
-        methods = QMenu("Method", self._window)
+        methods = QMenu("Method", self._bar)
         for method in METHODS:
-            methods.addAction(self._window.actions_table.by_name[f"method-{method}"])
-        view.insertMenu(self._window.actions_table.by_name["fit"], methods)
+            methods.addAction(self._actions[f"method-{method}"])
+        view.insertMenu(self._actions["fit"], methods)
         view.addSeparator()
-        for dock in self._window.docks.values():
-            view.addAction(dock.toggleViewAction())
+        for action in panels:
+            view.addAction(action)
 
     def _submenu(self, menu: QMenu, title: str) -> QMenu:
         """Return the submenu of this title, added if it is not there yet."""
@@ -124,52 +136,3 @@ def _leaves(menu: QMenu) -> list[QAction]:
         elif inner is None and not action.isSeparator():
             found.append(action)
     return found
-
-
-def make_toolbar(window: MainWindow) -> QToolBar:
-    """Return the toolbar, laid out by `actions.TOOLBAR`."""
-    bar = window.addToolBar("Tools")
-    bar.setObjectName("toolbar")
-    bar.setMovable(False)
-    bar.setIconSize(QSize(20, 20))
-    for name in TOOLBAR:
-        if name == "|":
-            bar.addSeparator()
-        elif name == "any-valence":
-            bar.addWidget(_any_valence_box(window))
-        elif name == "method":
-            bar.addWidget(window.method_box)
-        elif name == "->":
-            bar.addWidget(_spring())
-        else:
-            bar.addAction(window.actions_table.by_name[name])
-    for name in LABELLED:
-        button = bar.widgetForAction(window.actions_table.by_name[name])
-        if isinstance(button, QToolButton):
-            button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
-    return bar
-
-
-def _spring() -> QWidget:
-    """Return what pushes the rest of a toolbar to the right."""
-    spring = QWidget()
-    spring.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
-    return spring
-
-
-def _any_valence_box(window: MainWindow) -> QSpinBox:
-    """Return the box beside the tool "n": the valence it places."""
-    box = QSpinBox()
-    box.setLocale(QLocale.c())
-    box.setRange(MIN_VALENCE, MAX_VALENCE)
-    box.setValue(window.state.any_valence)
-    box.setToolTip("Valence that the tool n places")
-    box.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
-
-    def changed(valence: int) -> None:
-        held = window.state.tool
-        carried = held is not None and held not in TOOL_VALENCES
-        window.workspace.set(any_valence=valence, tool=valence if carried else held)
-
-    box.valueChanged.connect(changed)
-    return box

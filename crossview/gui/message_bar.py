@@ -17,9 +17,9 @@ from PySide6.QtWidgets import (
 )
 
 from crossview.gui.icons import colored_icon, icon
-from crossview.gui.panels.texts import BAD
 from crossview.gui.state import Message, WindowState
 from crossview.gui.workspace import Workspace
+from crossview.view.colors import BAD
 from solvers.remedies import Remedy
 
 TINTS = {"error": BAD, "warning": "#b7791f", "info": "#2f6fde"}

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from enum import Enum, auto
-from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, QObject, QPointF, Qt
+from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, Qt, Signal
 from PySide6.QtGui import QMouseEvent, QWheelEvent
 
+from crossview.gui.picking import Pick
+from crossview.gui.viewport import Viewport
 from crossview.gui.workspace import Workspace
 from solvers.surface.points import SurfacePoint
-
-if TYPE_CHECKING:
-    from crossview.gui.viewport import Viewport
 
 CLICK_REACH = 4.0
 """Pixels that the mouse may move between press and release of a click."""
@@ -29,14 +27,23 @@ class _Grip(Enum):
 
 
 class Mouse(QObject):
-    """Event filter on the plotter's widget.
+    """Event filter on a viewport's plotter.
 
     A press on a singularity takes hold of it in any mode; it becomes a drag once the mouse has
     moved as far as a click may not. All that is not taken here goes on to VTK's camera.
     """
 
+    hovered = Signal(object)
+    """Pick under the mouse, or None."""
+    menu_wanted = Signal(object, QPoint)
+    """Singularity number or None, and where on the screen."""
+    edit_wanted = Signal(int)
+    """A singularity was clicked twice."""
+
     def __init__(self, viewport: Viewport, workspace: Workspace) -> None:
         super().__init__(viewport)
+        self.under_mouse: Pick | None = None
+        self.under_menu: Pick | None = None
         self._viewport = viewport
         self._workspace = workspace
         self._grip = _Grip.NOTHING
@@ -45,6 +52,11 @@ class Mouse(QObject):
         self._moved = False
         self._wheel = 0
         self._onwards = False  # whether Shift is held
+        viewport.plotter.installEventFilter(self)
+
+    def close(self) -> None:
+        """Hear no more."""
+        self._viewport.plotter.removeEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Take an event, or leave it to the camera."""
@@ -75,7 +87,7 @@ class Mouse(QObject):
         if event.button() == Qt.MouseButton.LeftButton:
             index = self._viewport.singularity_at(event.position())
             if index is not None and event.type() == QEvent.Type.MouseButtonDblClick:
-                self._viewport.edit_wanted.emit(index)
+                self.edit_wanted.emit(index)
             self._grip = _Grip.CAMERA if index is None else _Grip.SINGULARITY
             self._held = -1 if index is None else index
         return self._grip is _Grip.SINGULARITY
@@ -103,7 +115,7 @@ class Mouse(QObject):
         if event.button() == Qt.MouseButton.RightButton:
             self._viewport.pass_on(event)
             if not self._moved:
-                self._viewport.ask_menu(event.position(), event.globalPosition().toPoint())
+                self._ask_menu(event.position(), event.globalPosition().toPoint())
             return True
         if event.button() != Qt.MouseButton.LeftButton:
             return False
@@ -129,6 +141,11 @@ class Mouse(QObject):
         else:
             self._workspace.select(None)
 
+    def _ask_menu(self, place: QPointF, global_place: QPoint) -> None:
+        """Ask for the menu of what is under a place."""
+        self.under_menu = self._viewport.pick(place)
+        self.menu_wanted.emit(self._viewport.singularity_at(place), global_place)
+
     def _wheeled(self, event: QWheelEvent) -> bool:
         index = self._viewport.singularity_at(event.position())
         if index is None or self._grip is _Grip.DRAG:
@@ -145,10 +162,10 @@ class Mouse(QObject):
     def _hover(self, place: QPointF | None) -> None:
         """Read out what is under the mouse and show what a click would do there."""
         pick = None if place is None else self._viewport.pick(place)
-        self._viewport.under_mouse = pick
+        self.under_mouse = pick
         if place is not None:  # else a menu may have opened
-            self._viewport.under_menu = None
-        self._viewport.hovered.emit(pick)
+            self.under_menu = None
+        self.hovered.emit(pick)
         over = None if place is None else self._viewport.singularity_at(place)
         self._viewport.point_out(over)
         self._workspace.set(hovered=over)

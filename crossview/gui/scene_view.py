@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from crossview.gui.figure_settings import FigureSettings
 from crossview.gui.ranges import NO_RANGES, Ranges
 from crossview.gui.state import WindowState
 from crossview.scene import Elements, LayerSettings, Marker, SceneView, field_view
@@ -105,14 +104,12 @@ def poor_faces(surface: TriSurface) -> IntArray:
     return np.flatnonzero(surface.triangle_quality < POOR_QUALITY)
 
 
-def figure_view(
-    state: WindowState, settings: FigureSettings, held: Ranges = NO_RANGES
-) -> SceneView:
+def figure_view(state: WindowState, transparent: bool, held: Ranges = NO_RANGES) -> SceneView:
     """Return what to draw in a figure: what is shown, without what only helps to edit."""
     plain = replace(state, trial=None, selected=None, partner=None)
     plain = replace(plain, condition=None, guide=(), poor=False)
     view = scene_view(replace(plain, mark_tool=None), held)
-    return replace(view, background="transparent") if settings.transparent else view
+    return replace(view, background="transparent") if transparent else view
 
 
 def _preview(state: WindowState, surface: TriSurface) -> Marker | None:

@@ -9,7 +9,6 @@ from typing import Any, TypeVar
 from PySide6.QtCore import QTimer
 
 from crossview.gui.background import Background
-from crossview.gui.panels.texts import energy
 from crossview.gui.state import Message
 from crossview.gui.store import Store
 from crossview.session.live import LiveBase, LiveEdit, cut, prepare
@@ -17,6 +16,7 @@ from crossview.session.meshes import Meshes
 from crossview.session.methods import Iterate, MethodSolver, Solved
 from crossview.session.moving import Moving
 from crossview.session.tracing import LiveTracer, Traced
+from crossview.view.texts import energy
 from solvers.progress import Progress
 from solvers.surface.triangulation import IntArray
 

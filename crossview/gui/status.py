@@ -2,51 +2,53 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from PySide6.QtCore import QTimer
-from PySide6.QtWidgets import QLabel, QProgressBar, QToolButton
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QLabel, QProgressBar, QStatusBar, QToolButton
 
-from crossview.gui.panels.texts import energy, hover
 from crossview.gui.picking import Pick
 from crossview.gui.state import WindowState
+from crossview.gui.workspace import Workspace
 from crossview.session.methods import Iterate
+from crossview.view.texts import energy, hover
 from solvers.progress import Progress
-
-if TYPE_CHECKING:
-    from crossview.gui.main_window import MainWindow
 
 PATIENCE_MS = 250
 
 
 class Status:
-    """Fills the status bar of a window."""
+    """Fills a status bar.
 
-    def __init__(self, window: MainWindow) -> None:
-        self._window = window
+    Parameters
+    ----------
+    bar : QStatusBar
+    workspace : Workspace
+    stop : QAction
+        Stops what the background does.
+    """
+
+    def __init__(self, bar: QStatusBar, workspace: Workspace, stop: QAction) -> None:
+        self._workspace = workspace
         self.hover, self.stage, self.frame = QLabel(), QLabel(), QLabel()
         self.bar = QProgressBar()
         self.bar.setRange(0, 100)
         self.bar.setTextVisible(False)
         self.bar.setFixedSize(140, 10)
         self.stop = QToolButton()
-        self.stop.setDefaultAction(window.actions_table.by_name["stop"])
+        self.stop.setDefaultAction(stop)
         self.stop.setAutoRaise(True)
         self.frame.setMinimumWidth(90)
-        status = window.statusBar()
-        status.setSizeGripEnabled(False)
-        status.addWidget(self.hover, 1)
+        bar.setSizeGripEnabled(False)
+        bar.addWidget(self.hover, 1)
         for widget in (self.stage, self.bar, self.stop, self.frame):
-            status.addPermanentWidget(widget)
+            bar.addPermanentWidget(widget)
         # work that ends at once shows nothing: a bar that flickers says less than none
-        self._patience = QTimer(window)
+        self._patience = QTimer(bar)
         self._patience.setSingleShot(True)
         self._patience.setInterval(PATIENCE_MS)
         self._patience.timeout.connect(lambda: self._show_bar(True))
         self._show_bar(False)
-        window.viewport.hovered.connect(self._show_hover)
-        window.viewport.frame_drawn.connect(self._show_frame)
 
     def show_state(self, old: WindowState, new: WindowState) -> None:
         """Follow the window's state."""
@@ -67,18 +69,20 @@ class Status:
         for widget in (self.stage, self.bar, self.stop):
             widget.setVisible(shown)
 
-    def _show_hover(self, pick: Pick | None) -> None:
-        field = self._window.state.field
+    def show_hover(self, pick: Pick | None) -> None:
+        """Read out the field at the place under the mouse."""
+        field = self._workspace.state.field
         if pick is None:
             self.hover.setText("")
             return
         height = None
-        if field is not None and field.surface is self._window.state.shown_surface:
+        if field is not None and field.surface is self._workspace.state.shown_surface:
             corners = field.H[field.surface.faces[pick.point.face]]
             height = float(np.dot(corners, pick.point.barycentric))
         self.hover.setText(hover(height, pick.point.face))
 
-    def _show_frame(self, milliseconds: float) -> None:
+    def show_frame(self, milliseconds: float) -> None:
+        """Say how long a frame took."""
         self.frame.setText(f"{milliseconds:.0f} ms/frame")
 
 

@@ -16,12 +16,11 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from PySide6.QtCore import QEvent, QPoint, QPointF, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QPointF, Qt, QTimer, Signal
 from PySide6.QtGui import QFont, QFontMetrics, QMouseEvent, QResizeEvent, QWheelEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 from pyvistaqt import QtInteractor
 
-from crossview.gui.mouse import Mouse
 from crossview.gui.picking import Pick, Picker, Place
 from crossview.gui.ranges import HeldRanges
 from crossview.gui.scene_view import scene_view
@@ -43,14 +42,8 @@ REACH = 7.0
 
 
 class Viewport(QWidget):
-    """Shows the state as a scene and turns the mouse into verbs of the workspace."""
+    """Shows the state as a scene, and tells what is under a place of it."""
 
-    hovered = Signal(object)
-    """Pick under the mouse, or None."""
-    menu_wanted = Signal(object, QPoint)
-    """Singularity number or None, and where on the screen."""
-    edit_wanted = Signal(int)
-    """A singularity was clicked twice."""
     frame_drawn = Signal(float)
     """Milliseconds that a frame took."""
 
@@ -66,11 +59,7 @@ class Viewport(QWidget):
         layout.addWidget(self.plotter)
         self.scene = Scene(self.plotter, self.devicePixelRatioF())
         self.picker = Picker(self.plotter.renderer)
-        self.mouse = Mouse(self, workspace)
-        self.plotter.installEventFilter(self.mouse)
         self.held = HeldRanges()
-        self.under_mouse: Pick | None = None
-        self.under_menu: Pick | None = None
         self._started = 0.0
         self._fitted: str | None = "auto"  # the preset view, until the user turns it
         self._late = self._timer(LATE_MS, self._draw)
@@ -131,12 +120,11 @@ class Viewport(QWidget):
         room = self.plotter.width() - BESIDE_TITLE
         return QFontMetrics(font).elidedText(title, Qt.TextElideMode.ElideRight, room)
 
-    def fit(self) -> None:
-        """Show the whole surface from a good side."""
-        self.look_from("auto")
-
     def look_from(self, camera: str) -> None:
-        """Look from one of the scene's preset directions, filling the room there is."""
+        """Look from one of the scene's preset directions, filling the room there is.
+
+        "auto" is a good side of the surface.
+        """
         self._fitted = camera
         self.scene.fit(camera, all_texts=True)
         self._update()
@@ -173,11 +161,6 @@ class Viewport(QWidget):
         plain = Qt.CursorShape.ArrowCursor if idle else Qt.CursorShape.CrossCursor
         self.plotter.setCursor(plain if singularity is None else hand)
 
-    def ask_menu(self, place: QPointF, global_place: QPoint) -> None:
-        """Ask for the menu of what is under a place."""
-        self.under_menu = self.pick(place)
-        self.menu_wanted.emit(self.singularity_at(place), global_place)
-
     def pass_on(self, event: QEvent) -> bool:
         """Hand an event to VTK's camera without its extra frame; say that it is dealt with."""
         if isinstance(event, QWheelEvent) or event.type() == QEvent.Type.MouseMove:
@@ -202,7 +185,6 @@ class Viewport(QWidget):
         """Free what VTK holds; the widget draws no more."""
         self._late.stop()
         self._rest.stop()
-        self.plotter.removeEventFilter(self.mouse)
         for tag in self._observers:
             self.plotter.render_window.RemoveObserver(tag)
         self.scene.remove()

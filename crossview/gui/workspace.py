@@ -94,6 +94,15 @@ class Workspace(Store):
         before = self.state.selected if both and index != self.state.selected else None
         self.set(selected=index, partner=before)
 
+    def take_tool(self, valence: int) -> None:
+        """Take the tool that adds a valence, or put it back when it is in hand."""
+        taken = None if self.state.tool == valence else valence
+        self.set(tool=taken, trial=None, mark_tool=None)
+
+    def put_tool_back(self) -> None:
+        """Take the select tool."""
+        self.set(tool=None, trial=None, mark_tool=None)
+
     def add(self, point: SurfacePoint, valence: int) -> None:
         """Add a singularity at `point` of the shown surface and select it."""
         document = self.state.document
@@ -166,6 +175,10 @@ class Workspace(Store):
         if not self.state.layers["layout"].visible:
             self.clear_message("layout")
         self.solving.pursue()
+
+    def toggle_layer(self, name: str) -> None:
+        """Show or hide a layer."""
+        self.set_layer(name, visible=not self.state.layers[name].visible)
 
     def _open(self, opening: Opening) -> None:
         def failed(error: Exception) -> None:

@@ -1,4 +1,4 @@
-"""Every colour of the scene, in one place."""
+"""Every colour that means something, in one place."""
 
 from __future__ import annotations
 
@@ -27,6 +27,8 @@ VALENCE = {
     11: "#2f8f4e",
     12: "#1b6b52",
 }
+GOOD, BAD, UNSURE, WAITING = "#2f9e5b", "#d93a3a", "#e0a01b", "#a9adb5"
+"""Of verdicts."""
 SURFACE = "#dcdee2"
 CROSS = "#1b1e24"
 CUT = "#1f5fd6"

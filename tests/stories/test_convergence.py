@@ -11,9 +11,8 @@ from PySide6.QtWidgets import QPushButton
 
 from crossview.cases.gallery import path_of
 from crossview.cases.model import Case
-from crossview.gui.panels.texts import BAD, GOOD, WAITING
 from crossview.gui.state import WindowState
-from crossview.view.colors import valence_color
+from crossview.view.colors import BAD, GOOD, WAITING, valence_color
 from tests.windowing import Hand
 
 Cases = Callable[[str], str]

@@ -8,9 +8,10 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QToolButton, QVBoxLayout, QWi
 
 from crossview.gui.icons import dot_icon
 from crossview.gui.panels.energy_plot import EnergyPlot
-from crossview.gui.panels.texts import BAD, GOOD, UNSURE, WAITING, aspect, energies
 from crossview.gui.panels.validity import DOT
 from crossview.gui.state import WindowState
+from crossview.view.colors import BAD, GOOD, UNSURE, WAITING
+from crossview.view.texts import aspect, energies
 from crossview.workflow.pipeline import Solution
 
 COLORS = {"valid": GOOD, "suspect": UNSURE, "impossible": BAD, "unknown": UNSURE}

@@ -16,8 +16,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from crossview.gui.figure_settings import FigureSettings
-from crossview.gui.panels.texts import grouped
+from crossview.gui.figure import FigureSettings
+from crossview.view.texts import grouped
 
 MOST_PIXELS = 16384
 LEAST_PREVIEW = QSize(80, 48)

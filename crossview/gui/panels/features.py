@@ -14,9 +14,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from crossview.gui.panels.texts import count, degrees
 from crossview.gui.state import WindowState
 from crossview.gui.workspace import Workspace
+from crossview.view.texts import count, degrees
 
 USUAL_ANGLE = 40.0
 STILL_MS = 600

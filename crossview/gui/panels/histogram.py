@@ -9,9 +9,9 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QWidget
 
-from crossview.gui.panels.texts import BAD, MINUS
-from crossview.view.colors import color_table
+from crossview.view.colors import BAD, color_table
 from crossview.view.scalars import SCALARS
+from crossview.view.texts import MINUS
 from solvers.surface.triangulation import FloatArray, IntArray
 
 BINS, STEP, LEAST_HEIGHT = 20, 0.1, 2.0

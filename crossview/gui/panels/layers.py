@@ -64,12 +64,7 @@ class LayersPanel(QWidget):
             if visible and old is not None and not old.layers[kind.name].visible:
                 self.list.setCurrentRow(row)  # its settings are at hand
 
-    def toggle(self, name: str) -> None:
-        """Show or hide a layer."""
-        visible = self._workspace.state.layers[name].visible
-        self._workspace.set_layer(name, visible=not visible)
-
     def _pressed(self, item: QListWidgetItem) -> None:
         place = self.list.viewport().mapFromGlobal(self.list.cursor().pos())
         if place.x() < 28:
-            self.toggle(LAYERS[self.list.row(item)].name)
+            self._workspace.toggle_layer(LAYERS[self.list.row(item)].name)

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from crossview.gui.panels.texts import MINUS, count, grouped
+from crossview.view.texts import MINUS, count, grouped
 from crossview.workflow.pipeline import Solution
 from solvers.layouts.layout import QuadLayout
 from solvers.quads.quadmesh import QuadMesh

@@ -24,9 +24,9 @@ from crossview.gui.icons import dot_icon
 from crossview.gui.panels.histogram import Histogram
 from crossview.gui.panels.quad_facts import ROWS, quad_facts
 from crossview.gui.panels.scrolling import scrolled
-from crossview.gui.panels.texts import BAD, GOOD
 from crossview.gui.panels.validity import DOT
 from crossview.gui.state import WindowState
+from crossview.view.colors import BAD, GOOD
 from crossview.workflow.quads import DEFAULT_QUADS, MeshOptions
 from solvers.quads.quantization import MOST_QUADS
 from solvers.surface.trisurface import TriSurface

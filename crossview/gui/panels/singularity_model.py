@@ -8,10 +8,10 @@ import numpy as np
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, Qt
 
 from crossview.gui.icons import dot_icon, icon
-from crossview.gui.panels.texts import position, signed
 from crossview.gui.state import WindowState
 from crossview.gui.workspace import Workspace
 from crossview.view.colors import valence_color
+from crossview.view.texts import position, signed
 from solvers.singularities.budget import Singularity
 
 NUMBER, VALENCE, INDEX, POSITION, LOCK = range(5)

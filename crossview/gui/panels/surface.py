@@ -8,11 +8,11 @@ from PySide6.QtWidgets import QFormLayout, QLabel, QScrollArea, QWidget
 
 from crossview.gui.panels.features import FeaturesBox
 from crossview.gui.panels.scrolling import scrolled
-from crossview.gui.panels.texts import count
 from crossview.gui.scene_view import poor_faces
 from crossview.gui.state import WindowState
 from crossview.gui.workspace import Workspace
 from crossview.session.document import Document
+from crossview.view.texts import count
 from solvers.surface.trisurface import TriSurface
 
 

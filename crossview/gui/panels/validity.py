@@ -17,11 +17,11 @@ from PySide6.QtWidgets import (
 )
 
 from crossview.gui.icons import dot_icon
-from crossview.gui.panels.texts import BAD, GOOD, WAITING, degrees, signed
 from crossview.gui.state import WindowState
 from crossview.gui.workspace import Workspace
 from crossview.session.mending import mendings
-from crossview.view.colors import condition_color
+from crossview.view.colors import BAD, GOOD, WAITING, condition_color
+from crossview.view.texts import degrees, signed
 from solvers.remedies import Remedy
 
 DOT = QSize(14, 14)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from crossview.gui.figure_settings import FigureSettings
+from crossview.gui.figure import FigureSettings
 from crossview.view.colors import THEMES, rgb, valence_color
 from tests.windowing import Hand, count_color
 
@@ -24,7 +24,7 @@ def shown(hand: Hand) -> np.ndarray:
 def test_it_shows_what_will_be_written(hand: Hand, tmp_path: Path) -> None:
     hand.open("disk-4")
     hand.window.workspace.set_layer("singularities", size=3.0)
-    hand.window.layers_panel.toggle("separatrices")  # they are as blue
+    hand.window.workspace.toggle_layer("separatrices")  # they are as blue
     panel = hand.window.export_panel
     assert panel.preview.pixmap().isNull()  # nobody has looked yet
     hand.window.docks["Export"].raise_()
@@ -37,7 +37,7 @@ def test_it_shows_what_will_be_written(hand: Hand, tmp_path: Path) -> None:
     assert blue > 20
 
     # hidden in the window, hidden in the figure
-    hand.window.layers_panel.toggle("singularities")
+    hand.window.workspace.toggle_layer("singularities")
     hand.wait(lambda: count_color(shown(hand), valence_color(3)) == 0)
 
     # turned, resized, on another ground

@@ -12,9 +12,9 @@ from PySide6.QtWidgets import QApplication, QMenu, QSlider, QSpinBox
 from crossview.cases.model import Case
 from crossview.gui.action_table import ACTIONS, TOOLBAR
 from crossview.gui.palette import Palette
-from crossview.gui.panels.texts import count, degrees, position, signed
 from crossview.gui.recent import MOST, recent, remember
 from crossview.view.colors import LOOP, valence_color
+from crossview.view.texts import count, degrees, position, signed
 from solvers.primitives import BUILTIN
 from tests.windowing import Hand
 
@@ -200,9 +200,9 @@ def test_eyes_and_sliders_of_the_layers(hand: Hand) -> None:
     panel = hand.window.layers_panel
     place = hand.place_of(0)
     assert hand.shows(valence_color(3), place)
-    panel.toggle("singularities")
+    hand.window.workspace.toggle_layer("singularities")
     assert not hand.shows(valence_color(3), place)
-    panel.toggle("singularities")
+    hand.window.workspace.toggle_layer("singularities")
     assert hand.shows(valence_color(3), place)
     before = hand.picture()
     slider = panel.editors["crosses"].findChild(QSlider, "density")

@@ -2,31 +2,32 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
 
 from PySide6.QtCore import QByteArray, QSettings
+from PySide6.QtWidgets import QDockWidget, QMainWindow
 
 from crossview.gui.docks import size_docks
 
-if TYPE_CHECKING:
-    from crossview.gui.main_window import MainWindow
-
 GEOMETRY, DOCKS = "window/geometry", "window/docks"
 VERSION = 1
-"""To be raised when docks come or go: an older arrangement is then forgotten."""
+"""To be raised when docks come or go: what was kept of others is then forgotten."""
 
 
-class Arrangement:
-    """The arrangement of a window's docks, once it is shown.
+class WindowGeometry:
+    """Size and place of a window and its docks, once it is shown.
 
     Parameters
     ----------
-    window : MainWindow
-        With its docks; takes the size and place it had last.
+    window : QMainWindow
+        Takes the size and place it had last.
+    docks : mapping of str to QDockWidget
+        By title, as `add_docks` made them.
     """
 
-    def __init__(self, window: MainWindow) -> None:
+    def __init__(self, window: QMainWindow, docks: Mapping[str, QDockWidget]) -> None:
         self._window = window
+        self._docks = docks
         self._first = window.saveState(VERSION)
         self._shown = False
         geometry = QSettings().value(GEOMETRY)
@@ -38,13 +39,13 @@ class Arrangement:
         if self._shown:
             return
         self._shown = True
-        size_docks(self._window)
+        size_docks(self._window, self._docks)
         docks = QSettings().value(DOCKS)
         if isinstance(docks, QByteArray):
             self._window.restoreState(docks, VERSION)
 
     def keep(self) -> None:
-        """Remember the arrangement for the next session."""
+        """Remember where all stands for the next session."""
         if self._shown:
             settings = QSettings()
             settings.setValue(GEOMETRY, self._window.saveGeometry())
@@ -53,4 +54,4 @@ class Arrangement:
     def reset(self) -> None:
         """Put the docks back to where they stand at first."""
         self._window.restoreState(self._first, VERSION)
-        size_docks(self._window)
+        size_docks(self._window, self._docks)

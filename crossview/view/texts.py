@@ -1,14 +1,10 @@
-"""Numbers and words as the panels show them."""
+"""Numbers and words as the window shows them."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 
-GOOD = "#2f9e5b"
-BAD = "#d93a3a"
-UNSURE = "#e0a01b"
-WAITING = "#a9adb5"
 THIN_SPACE = "\u2009"
 MINUS = "\u2212"
 

@@ -1,0 +1,40 @@
+"""What stands in the middle of the window."""
+
+from __future__ import annotations
+
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import QStackedWidget, QVBoxLayout, QWidget
+
+from crossview.gui.empty_state import EmptyState
+from crossview.gui.message_bar import MessageBar
+from crossview.gui.state import WindowState
+from crossview.gui.viewport import Viewport
+from crossview.gui.workspace import Workspace
+
+
+class Centre(QWidget):
+    """The empty state or the viewport, and the message bar floating over them."""
+
+    def __init__(self, workspace: Workspace) -> None:
+        super().__init__()
+        self.empty = EmptyState()
+        self.viewport = Viewport(workspace)
+        self.stack = QStackedWidget()
+        self.stack.addWidget(self.empty)
+        self.stack.addWidget(self.viewport)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(self.stack)
+        self.message_bar = MessageBar(workspace, self)
+
+    def show_state(self, old: WindowState, new: WindowState) -> None:
+        """Follow the window's state."""
+        nothing = new.document is None and new.faulty is None
+        self.stack.setCurrentWidget(self.empty if nothing else self.viewport)
+        self.viewport.show_state(old, new)
+        self.message_bar.show_state(old, new)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Keep the bar in its place."""
+        super().resizeEvent(event)
+        self.message_bar.place()

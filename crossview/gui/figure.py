@@ -1,0 +1,72 @@
+"""What a figure shows and how it is drawn."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from crossview.export.figures import render_view
+from crossview.scene import Camera, SceneView
+
+
+@dataclass(frozen=True)
+class FigureSettings:
+    """How large, how fine and on what a figure is drawn.
+
+    Parameters
+    ----------
+    size : (int, int)
+        Width and height before scaling, pixels.
+    scale : int
+        Finer by this factor, lines and text scaled with it.
+    transparent : bool
+        No background.
+    dpi : int
+        Pixels of the file per inch on paper.
+    """
+
+    size: tuple[int, int] = (1600, 1200)
+    scale: int = 1
+    transparent: bool = False
+    dpi: int = 300
+
+    @property
+    def millimetres(self) -> tuple[float, float]:
+        """Width and height on paper."""
+        width, height = (25.4 * side * self.scale / self.dpi for side in self.size)
+        return width, height
+
+
+@dataclass(frozen=True, eq=False)
+class Figure:
+    """What would be written now.
+
+    Parameters
+    ----------
+    view : SceneView
+        What is shown, without what only helps to edit.
+    camera : Camera
+        From where it is seen.
+    settings : FigureSettings
+    """
+
+    view: SceneView
+    camera: Camera
+    settings: FigureSettings
+
+    def write(self, path: Path) -> None:
+        """Draw it to a file.
+
+        Raises
+        ------
+        CrossviewError
+            As `render_view`.
+        """
+        render_view(
+            self.view,
+            path,
+            size=self.settings.size,
+            scale=self.settings.scale,
+            camera=self.camera,
+            dpi=self.settings.dpi,
+        )

@@ -1,0 +1,47 @@
+"""What the table of actions calls: the session's verbs, and those that need a window."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from crossview.gui.files import Files
+from crossview.gui.workspace import Workspace
+
+
+class Verbs(Protocol):
+    """What a window can do; menus, toolbar, shortcuts and palette know no more of it."""
+
+    @property
+    def workspace(self) -> Workspace:
+        """The verbs that need no window."""
+
+    @property
+    def files(self) -> Files:
+        """Opening, saving and exporting, with their dialogs."""
+
+    def add_pair(self) -> None:
+        """Add a pair where the mouse is, where the menu was asked for, or where there is room."""
+
+    def close(self) -> bool:
+        """Close the window; False if it stays."""
+
+    def edit_valence(self, index: int) -> None:
+        """Let the valence of singularity `index` be typed."""
+
+    def escape(self) -> None:
+        """Put a dragged singularity back, else take the select tool."""
+
+    def look_from(self, camera: str) -> None:
+        """Look from one of the scene's preset directions; "auto": a good side."""
+
+    def make_quads(self) -> None:
+        """Make quads as the Quads panel says, and show it."""
+
+    def reset_docks(self) -> None:
+        """Put all panels back to where they stand at first."""
+
+    def show_about(self) -> None:
+        """Say what this is."""
+
+    def show_palette(self) -> None:
+        """Open the command palette."""
