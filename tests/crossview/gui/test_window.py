@@ -198,6 +198,7 @@ def test_hovering_a_condition_points_out_its_loop(hand: Hand) -> None:
 def test_eyes_and_sliders_of_the_layers(hand: Hand) -> None:
     hand.open("disk-4")
     panel = hand.window.layers_panel
+    hand.window.workspace.toggle_layer("separatrices")  # three of them meet there, as blue
     place = hand.place_of(0)
     assert hand.shows(valence_color(3), place)
     hand.window.workspace.toggle_layer("singularities")
