@@ -17,6 +17,10 @@ from solvers.surface.trisurface import TriSurface
 Place = tuple[float, float]
 """Device pixels from the lower left, as VTK counts."""
 
+SLIP = 1e-9
+"""How far a ray may pass beside a triangle, over the surface's size, and still meet it: one
+through a vertex meets, by rounding, none of the triangles around it."""
+
 
 @dataclass(frozen=True)
 class Pick:
@@ -55,7 +59,8 @@ class Picker:
         t, hit, corners = mutable(0.0), [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
         sub_cell, face = mutable(0), mutable(-1)
         locator = self._built(self._surface)
-        if not locator.IntersectWithLine(near, far, 0.0, t, hit, corners, sub_cell, face):
+        reach = SLIP * self._surface.diagonal
+        if not locator.IntersectWithLine(near, far, reach, t, hit, corners, sub_cell, face):
             return None
         r, s = min(max(corners[0], 0.0), 1.0), min(max(corners[1], 0.0), 1.0)
         point = SurfacePoint(int(face), (max(1.0 - r - s, 0.0), r, min(s, 1.0 - r)))

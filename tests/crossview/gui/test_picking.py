@@ -8,7 +8,7 @@ import pyvista as pv
 
 from crossview.gui.picking import Picker
 from crossview.scene import Scene, SceneView, ensure_rendering
-from solvers.primitives import sphere
+from solvers.primitives import disk, sphere
 from solvers.surface.trisurface import TriSurface
 
 BALL = sphere(3)
@@ -47,3 +47,14 @@ def test_a_ray_that_slips_between_triangles_does_not_hide_what_is_before(
     at = picker._display(place[0])
     assert np.linalg.norm(picker.pick(at).position - place[0]) > 1.5
     assert picker.nearest(at, place, 0.02, 7.0) == 0
+
+
+def test_a_ray_through_a_vertex_meets_the_surface(plotter: pv.Plotter) -> None:
+    surface = disk()
+    picker = Picker(plotter.renderer)
+    picker.aim(surface)
+    inner = np.setdiff1d(np.arange(surface.n_vertices), np.concatenate(surface.boundary_loops))
+    for vertex in surface.vertices[inner]:
+        pick = picker.pick(picker._display(vertex))
+        assert pick is not None
+        np.testing.assert_allclose(pick.position, vertex, atol=1e-9)
