@@ -22,8 +22,10 @@ extensions = [
     "written",
 ]
 exclude_patterns = ["_ext"]
-# one page is included in another, with its headings one level down
-suppress_warnings = ["myst.header"]
+suppress_warnings = [
+    "myst.header",  # one page is included in another, with its headings one level down
+    "ref.python",  # what is exported by a room and by crossview is the same
+]
 
 myst_enable_extensions = ["dollarmath", "amsmath"]
 myst_heading_anchors = 3
@@ -36,7 +38,8 @@ autodoc_class_signature = "mixed"
 napoleon_google_docstring = False
 napoleon_use_rtype = False
 python_use_unqualified_type_names = True
-default_role = "code"
+default_role = "py:obj"  # a link where there is something of that name
+autodoc_preserve_defaults = True
 add_module_names = False
 toc_object_entries_show_parents = "hide"
 

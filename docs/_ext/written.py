@@ -5,6 +5,7 @@ The gallery and its numbers, the actions of the window, the commands, the interf
 
 from __future__ import annotations
 
+import inspect
 import json
 import pkgutil
 import re
@@ -16,6 +17,7 @@ from docutils import nodes
 from sphinx.application import Sphinx
 from sphinx.errors import ExtensionError
 
+import crossview
 import solvers
 from crossview.cases.gallery import names
 from crossview.cli import app as command_line
@@ -38,8 +40,8 @@ def write(app: Sphinx) -> None:
     (folder / "actions.md").write_text(actions(), encoding="utf-8")
     (folder / "commands.md").write_text(commands(), encoding="utf-8")
     (folder / "numbers.md").write_text(numbers(folder / "gallery"), encoding="utf-8")
-    for room in rooms():
-        (folder / f"{room}.rst").write_text(interface(room), encoding="utf-8")
+    for name, page in interface().items():
+        (folder / f"{name}.rst").write_text(page, encoding="utf-8")
 
 
 def draw(folder: Path) -> None:
@@ -91,19 +93,53 @@ def commands() -> str:
 
 
 def rooms() -> tuple[str, ...]:
-    """`solvers` and its packages, as a reader meets them."""
-    packages = (room.name for room in pkgutil.iter_modules(solvers.__path__) if room.ispkg)
-    return ("solvers", *(f"solvers.{name}" for name in packages))
+    """The packages of `solvers`."""
+    return tuple(
+        f"solvers.{room.name}" for room in pkgutil.iter_modules(solvers.__path__) if room.ispkg
+    )
 
 
-def interface(room: str) -> str:
-    """The page of a room: all that it exports, but for what has a place in a room of its own."""
-    inner = (import_module(other) for other in rooms() if other.startswith(f"{room}."))
-    placed = {name for package in inner for name in package.__all__}
-    page = f"{room}\n{'=' * len(room)}\n\n.. automodule:: {room}\n"
-    if again := sorted(placed.intersection(import_module(room).__all__)):
-        page += f"   :exclude-members: {', '.join(again)}\n"
-    return page
+def interface() -> dict[str, str]:
+    """The pages of the Python interface by their names: each name is told of once."""
+    told = {name: room for room in rooms() for name in import_module(room).__all__}
+    pages = {room: [*title(room, "="), f".. automodule:: {room}"] for room in rooms()}
+    errors = [name for name in solvers.__all__ if name not in told]
+    pages["solvers"] = [
+        *title("The rooms of solvers", "="), ".. automodule:: solvers", "   :no-members:", "",
+        ".. toctree::", "   :hidden:", "", *(f"   {room}" for room in rooms()), "",
+        *title("Errors, remedies and progress", "-"), *entries("solvers", errors),
+    ]  # fmt: skip
+    told |= dict.fromkeys(errors, "solvers")
+    verbs = [name for name in crossview.__all__ if inspect.isfunction(getattr(crossview, name))]
+    verbs.sort(key=lambda name: getattr(crossview, name).__code__.co_firstlineno)
+    values = [name for name in crossview.__all__ if name not in verbs and name not in told]
+    values.remove("primitives")
+    also = [f":obj:`~{told[n]}.{n}`" for n in crossview.__all__ if n in told and n not in verbs]
+    pages["python"] = [
+        *title("Python", "="), ".. automodule:: crossview", "   :no-members:", "",
+        f"It also has {', '.join(also)} and, in ``crossview.primitives``, :mod:`surfaces made by",
+        "functions <solvers.primitives>`.", "",
+        *title("Verbs", "-"), *entries("crossview", verbs),
+        *title("Values", "-"), *entries("crossview", values),
+    ]  # fmt: skip
+    return {name: "\n".join(lines) + "\n" for name, lines in pages.items()}
+
+
+def title(text: str, line: str) -> list[str]:
+    """A title or a heading."""
+    return [text, line * len(text), ""]
+
+
+def entries(module: str, names: Iterable[str]) -> list[str]:
+    """What is said of some names of a module."""
+
+    def kind(name: str) -> str:
+        value = getattr(import_module(module), name)
+        if inspect.isfunction(value):
+            return "function"
+        return "exception" if issubclass(value, Exception) else "class"
+
+    return [*(f".. auto{kind(name)}:: {module}.{name}" for name in names), ""]
 
 
 def numbers(folder: Path) -> str:
@@ -141,6 +177,8 @@ def plain(
     """Take the bars of |x| in a docstring as they are, but for examples and code."""
     example = False
     for number, line in enumerate(lines):
+        if line.lstrip().startswith(":type"):  # choices are no names to link
+            line = lines[number] = re.sub(r"\{.*?\}", r"``\g<0>``", line)
         example = line.lstrip().startswith(">>>") or (example and bool(line.strip()))
         if not example and "`" not in line:
             lines[number] = line.replace("|", r"\|")
