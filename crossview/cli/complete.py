@@ -7,8 +7,8 @@ from dataclasses import replace
 from crossview.cli.options import Output, Quiet, SurfaceOptions
 from crossview.cli.terminal import say, watch
 from crossview.workflow.problem import Problem
-from solvers.fields.isotropic import IsotropicSolver
-from solvers.validity.completion import missing_singularities
+from solvers.fields import IsotropicSolver
+from solvers.validity import missing_singularities
 
 
 def complete(

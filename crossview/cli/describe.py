@@ -12,10 +12,9 @@ from crossview.io import read_surface
 from crossview.workflow.loading import load_surfaces, mended
 from crossview.workflow.problem import Problem, placed
 from solvers.errors import SurfaceError
-from solvers.repair.flat_triangles import merge_coincident
-from solvers.repair.soup import Repaired
-from solvers.singularities.budget import index_budget
-from solvers.surface.validation import array_problems, problems
+from solvers.repair import Repaired, merge_coincident
+from solvers.singularities import index_budget
+from solvers.surface import array_problems, problems
 
 
 def describe(case: Case) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from solvers.remedies import MakeValid, Remedy, RepairSurface, TakeLargest, UseMethod
-from solvers.singularities.remedies import AddMissing
+from solvers.singularities import AddMissing
 
 
 def with_command(remedy: Remedy) -> str:

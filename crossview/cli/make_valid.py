@@ -7,7 +7,7 @@ from dataclasses import replace
 from crossview.cli.options import Output, Quiet, SurfaceOptions
 from crossview.cli.terminal import say, watch
 from crossview.workflow.problem import Problem
-from solvers.validity.attempts import make_valid as moved_to_validity
+from solvers.validity import make_valid as moved_to_validity
 
 
 def make_valid(

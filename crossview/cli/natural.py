@@ -7,13 +7,13 @@ from dataclasses import replace
 from crossview.cli.options import FeatureOptions, Output, Quiet
 from crossview.cli.terminal import say, watch
 from crossview.workflow.problem import Problem
-from solvers.fields.natural import (
+from solvers.fields import (
     CURVATURE_WEIGHT,
     NATURAL_ALIGNMENTS,
     NATURAL_METHODS,
     natural_singularities,
 )
-from solvers.singularities.budget import require_budget
+from solvers.singularities import require_budget
 
 
 def natural(

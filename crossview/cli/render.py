@@ -20,10 +20,9 @@ from crossview.workflow.layout import layout, layout_soon
 from crossview.workflow.pipeline import Solution, solve_case
 from crossview.workflow.quads import MeshOptions, quads_of
 from solvers.errors import CrossviewError
-from solvers.layouts.errors import LayoutError
-from solvers.layouts.layout import QuadLayout
+from solvers.layouts import LayoutError, QuadLayout
 from solvers.progress import Progress
-from solvers.quads.quadmesh import QuadMesh
+from solvers.quads import QuadMesh
 
 FIGURE, QUADS = "figure.png", "quads.png"
 QUAD_LAYERS = ("quads", "singularities", "boundary", "legend", "axes")

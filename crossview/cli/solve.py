@@ -16,9 +16,9 @@ from crossview.workflow.layout import layout_soon
 from crossview.workflow.pipeline import Solution, of_component, solve_case
 from crossview.workflow.quads import MeshOptions, quads_of
 from solvers.errors import CrossviewError
-from solvers.layouts.layout import QuadLayout
+from solvers.layouts import QuadLayout
 from solvers.progress import Progress
-from solvers.quads.quadmesh import QuadMesh
+from solvers.quads import QuadMesh
 
 Results = list[tuple[Solution, QuadLayout | None, QuadMesh | None]]
 

@@ -26,8 +26,8 @@ from crossview.view.scene_view import Background
 from crossview.workflow.layout import misaligned_boundaries, separatrices
 from crossview.workflow.pipeline import Solution
 from solvers.errors import CrossviewError
-from solvers.layouts.layout import QuadLayout
-from solvers.quads.quadmesh import QuadMesh
+from solvers.layouts import QuadLayout
+from solvers.quads import QuadMesh
 
 KINDS = (".png", ".svg", ".pdf")
 

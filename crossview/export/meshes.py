@@ -18,8 +18,8 @@ from vtkmodules.vtkIOLegacy import vtkUnstructuredGridWriter
 from crossview import __version__
 from crossview.io.staged_files import staged
 from solvers.errors import CrossviewError
-from solvers.quads.quadmesh import QuadMesh
-from solvers.surface.triangulation import FloatArray, IntArray
+from solvers.quads import QuadMesh
+from solvers.surface import FloatArray, IntArray
 
 OLDER = 42
 """Version of VTK's legacy format that its readers outside of VTK know best."""

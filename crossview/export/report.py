@@ -24,8 +24,8 @@ from crossview.io.staged_files import staged
 from crossview.workflow.layout import misaligned_boundaries, separatrices
 from crossview.workflow.pipeline import Solution
 from solvers.errors import counted
-from solvers.layouts.layout import QuadLayout
-from solvers.quads.quadmesh import QuadMesh
+from solvers.layouts import QuadLayout
+from solvers.quads import QuadMesh
 
 REPORT = "report.json"
 FORMATS = ("vtk", "obj")

@@ -9,8 +9,7 @@ import pyvista as pv
 from numpy.typing import NDArray
 
 from crossview.workflow.pipeline import Solution
-from solvers.layouts.layout import QuadLayout
-from solvers.layouts.separatrices import Separatrices
+from solvers.layouts import QuadLayout, Separatrices
 
 ARM = 0.35
 """Length of a cross's arm in a triangle of typical H, in lengths of the triangle's size."""

@@ -11,7 +11,7 @@ from crossview.io.polygons import Polygons
 from crossview.io.stl import read_stl
 from crossview.io.text import read_obj, read_off
 from solvers.errors import CrossviewError
-from solvers.surface.triangulation import FloatArray, IntArray
+from solvers.surface import FloatArray, IntArray
 
 
 def _from_libraries(name: str) -> Callable[[Path], Polygons]:

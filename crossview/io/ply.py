@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from crossview.io.polygons import Polygons
 from solvers.errors import CrossviewError
-from solvers.surface.triangulation import FloatArray
+from solvers.surface import FloatArray
 
 CODES = {
     "char int8": "i1",

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from solvers.errors import SurfaceError, counted, listed
-from solvers.surface.triangulation import FloatArray, IntArray
+from solvers.surface import FloatArray, IntArray
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ import numpy as np
 
 from crossview.io.polygons import Polygons
 from solvers.errors import CrossviewError
-from solvers.surface.triangulation import FloatArray
+from solvers.surface import FloatArray
 
 HEADER = 84
 RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])

@@ -11,9 +11,8 @@ import numpy as np
 from crossview.view.geometry import FloatArray, IntArray, Triangles
 from crossview.view.scene_view import SceneView
 from crossview.view.values import Marker
-from solvers.features.edges import Features
-from solvers.fields.crossfield import CrossField
-from solvers.fields.verdict import Limits
+from solvers.features import Features
+from solvers.fields import CrossField, Limits
 
 
 def field_view(field: CrossField, cut_graph: IntArray | None = None, **others: Any) -> SceneView:

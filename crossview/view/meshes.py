@@ -13,9 +13,8 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from crossview.view.values import Curves, FloatArray, Quads
-from solvers.layouts.layout import QuadLayout
-from solvers.layouts.separatrices import Separatrices
-from solvers.quads.quadmesh import QuadMesh
+from solvers.layouts import QuadLayout, Separatrices
+from solvers.quads import QuadMesh
 
 Source = TypeVar("Source")
 Drawing = TypeVar("Drawing")

@@ -8,12 +8,10 @@ import numpy as np
 
 from crossview.workflow.solution import Solution
 from solvers.errors import CrossviewError
-from solvers.fields.aligned import IntegratedField, aligned_field
-from solvers.layouts.errors import LayoutError
-from solvers.layouts.layout import QuadLayout, quad_layout
-from solvers.layouts.separatrices import Separatrices
+from solvers.fields import IntegratedField, aligned_field
+from solvers.layouts import LayoutError, QuadLayout, Separatrices, quad_layout
 from solvers.progress import Progress
-from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
+from solvers.surface import BoolArray, FloatArray, IntArray
 
 SOON = 50_000
 """Triangles up to which a layout takes seconds at most."""

@@ -6,7 +6,7 @@ from crossview.cases.model import Builtin, Case
 from crossview.io import RawSurface, read_surface
 from solvers.errors import SurfaceError
 from solvers.primitives import BUILTIN
-from solvers.repair.soup import Repaired, repair, repair_each
+from solvers.repair import Repaired, repair, repair_each
 
 
 def load_surfaces(case: Case) -> tuple[Repaired, ...]:

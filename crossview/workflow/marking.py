@@ -9,11 +9,8 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from crossview.cases.parts import PlacedFeatures, Polyline, Position
-from solvers.features.dihedral import sharp_edges
-from solvers.features.edges import Features, no_features
-from solvers.surface.edge_paths import EdgePaths
-from solvers.surface.triangulation import IntArray
-from solvers.surface.trisurface import TriSurface
+from solvers.features import Features, no_features, sharp_edges
+from solvers.surface import EdgePaths, IntArray, TriSurface
 
 
 @dataclass(frozen=True)

@@ -8,13 +8,18 @@ import numpy as np
 
 from crossview.cases.model import CaseError, Options
 from crossview.workflow.sizes import refined_sizes
-from solvers.fields.aligned import AlignedField, IntegratedField, aligned_field
-from solvers.fields.integrable import alternating_field, anisotropic_field
-from solvers.fields.prepared import PreparedSurface
-from solvers.fields.verdict import Limits
-from solvers.maps.seamless import seamless_map
+from solvers.fields import (
+    AlignedField,
+    IntegratedField,
+    Limits,
+    PreparedSurface,
+    aligned_field,
+    alternating_field,
+    anisotropic_field,
+)
+from solvers.maps import seamless_map
 from solvers.progress import Progress, relayed
-from solvers.surface.triangulation import QUARTER, FloatArray
+from solvers.surface import QUARTER, FloatArray
 
 Integration = Generator[Progress, None, IntegratedField]
 

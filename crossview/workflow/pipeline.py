@@ -16,16 +16,21 @@ from crossview.workflow.problem import Problem, problems_of
 from crossview.workflow.sizes import read_sizes, refined_sizes
 from crossview.workflow.solution import Solution
 from solvers.errors import CrossviewError
-from solvers.fields.aligned import AlignedField, IntegratedField
-from solvers.fields.crossfield import CrossField
-from solvers.fields.integrable import FieldStep
-from solvers.fields.isotropic import IsotropicSolver
-from solvers.fields.prepared import PreparedSurface, prepare
-from solvers.fields.verdict import Limits, judge
+from solvers.fields import (
+    AlignedField,
+    CrossField,
+    FieldStep,
+    IntegratedField,
+    IsotropicSolver,
+    Limits,
+    PreparedSurface,
+    judge,
+    prepare,
+)
 from solvers.layouts.turning import joined_field, joining
 from solvers.progress import Progress, between
-from solvers.singularities.budget import require_budget
-from solvers.surface.triangulation import FloatArray
+from solvers.singularities import require_budget
+from solvers.surface import FloatArray
 
 __all__ = ["Pipeline", "Solution", "of_component", "solve_case"]
 

@@ -6,18 +6,17 @@ from collections.abc import Generator
 from dataclasses import replace
 
 from crossview.workflow.problem import Problem
-from solvers.fields.isotropic import IsotropicSolver
-from solvers.fields.natural import (
+from solvers.fields import (
     CURVATURE_WEIGHT,
     NATURAL_ALIGNMENTS,
     NATURAL_METHODS,
+    IsotropicSolver,
     natural_singularities,
 )
 from solvers.progress import Progress
-from solvers.singularities.budget import require_budget
-from solvers.validity.attempts import make_valid as moved_to_validity
-from solvers.validity.completion import missing_singularities
-from solvers.validity.search import Moved
+from solvers.singularities import require_budget
+from solvers.validity import Moved, missing_singularities
+from solvers.validity import make_valid as moved_to_validity
 
 Placing = Generator[Progress, None, Problem]
 

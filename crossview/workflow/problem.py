@@ -23,11 +23,10 @@ from crossview.cases.parts import Polyline
 from crossview.workflow.loading import load_surfaces
 from crossview.workflow.marking import Drawing, Marking
 from solvers.errors import CrossviewError
-from solvers.features.edges import Features
-from solvers.repair.soup import Repaired
-from solvers.singularities.budget import Singularity, default_corners
-from solvers.surface.triangulation import FloatArray
-from solvers.surface.trisurface import TriSurface
+from solvers.features import Features
+from solvers.repair import Repaired
+from solvers.singularities import Singularity, default_corners
+from solvers.surface import FloatArray, TriSurface
 
 REACH = 0.05
 """How far from the surface a position may be, in diagonals of the surface."""

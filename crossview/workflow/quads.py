@@ -11,15 +11,12 @@ import numpy as np
 from crossview.workflow.layout import layout
 from crossview.workflow.solution import Solution
 from solvers.errors import CrossviewError
-from solvers.fields.crossfield import CrossField
-from solvers.layouts.layout import QuadLayout
+from solvers.fields import CrossField
+from solvers.layouts import QuadLayout
 from solvers.number_checks import real_number, whole_number
 from solvers.progress import Progress, between
-from solvers.quads.filling import fill
-from solvers.quads.quadmesh import QuadMesh
-from solvers.quads.quantization import MOST_QUADS, quantize, quantize_to
-from solvers.quads.smoothing import smooth
-from solvers.surface.trisurface import TriSurface
+from solvers.quads import MOST_QUADS, QuadMesh, fill, quantize, quantize_to, smooth
+from solvers.surface import TriSurface
 
 DEFAULT_QUADS = 5_000
 

@@ -9,10 +9,8 @@ import numpy as np
 
 from crossview.cases.json_values import CaseError
 from crossview.cases.model import Sizes
-from solvers.fields.sizes import size_map
-from solvers.surface.refinement import Refinement
-from solvers.surface.triangulation import FloatArray
-from solvers.surface.trisurface import barycentric
+from solvers.fields import size_map
+from solvers.surface import FloatArray, Refinement, barycentric
 
 
 def read_sizes(sizes: Sizes, n_vertices: int) -> FloatArray:

@@ -7,17 +7,18 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from crossview.workflow.problem import Problem
-from solvers.features.edges import Features
-from solvers.fields.aligned import IntegratedField
-from solvers.fields.crossfield import CrossField
-from solvers.fields.isotropic import IsotropicSolver
-from solvers.fields.prepared import PreparedSurface
-from solvers.fields.verdict import Limits, Verdict
-from solvers.layouts.separatrices import Separatrices, field_separatrices
-from solvers.singularities.budget import Singularity
-from solvers.surface.refinement import Refinement
-from solvers.surface.triangulation import FloatArray, IntArray
-from solvers.surface.trisurface import TriSurface
+from solvers.features import Features
+from solvers.fields import (
+    CrossField,
+    IntegratedField,
+    IsotropicSolver,
+    Limits,
+    PreparedSurface,
+    Verdict,
+)
+from solvers.layouts import Separatrices, field_separatrices
+from solvers.singularities import Singularity
+from solvers.surface import FloatArray, IntArray, Refinement, TriSurface
 
 
 @dataclass(frozen=True, eq=False)

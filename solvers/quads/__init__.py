@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from solvers.quads.filling import fill
 from solvers.quads.quadmesh import QuadMesh, scaled_jacobian
-from solvers.quads.quantization import Quantization, quantize, quantize_to
+from solvers.quads.quantization import MOST_QUADS, Quantization, quantize, quantize_to
 from solvers.quads.smoothing import smooth
 
 __all__ = [
+    "MOST_QUADS",
     "QuadMesh",
     "Quantization",
     "fill",

@@ -9,12 +9,19 @@ from solvers.surface.geodesics import straightest
 from solvers.surface.homology import HandleLoops, handle_loops
 from solvers.surface.points import SurfacePoint
 from solvers.surface.refinement import Refinement, refine_at, refine_everywhere
-from solvers.surface.triangulation import QUARTER, FloatArray, IntArray, IntrinsicTriangulation
+from solvers.surface.triangulation import (
+    QUARTER,
+    BoolArray,
+    FloatArray,
+    IntArray,
+    IntrinsicTriangulation,
+)
 from solvers.surface.trisurface import TriSurface, barycentric
 from solvers.surface.validation import array_problems, problems
 
 __all__ = [
     "QUARTER",
+    "BoolArray",
     "DelaunayTriangulation",
     "EdgePaths",
     "FloatArray",
