@@ -59,7 +59,7 @@ def align_with_features(
     Parameters
     ----------
     holonomy : Holonomy
-        On a discretisation made without flips, and with features.
+        On a discretisation of the surface's own triangles, with features.
     conjugate : (m, 3) float array
         Corner values of the function whose conjugate the isotropic field is.
     defects : (c,) float array

@@ -7,6 +7,7 @@ from solvers.layouts.layout import QuadLayout, quad_layout
 from solvers.layouts.patches import PatchMesh
 from solvers.layouts.separatrices import Separatrices, field_separatrices
 from solvers.layouts.tmesh import TMesh
+from solvers.layouts.turning import joined_field
 
 __all__ = [
     "LayoutError",
@@ -15,5 +16,6 @@ __all__ = [
     "Separatrices",
     "TMesh",
     "field_separatrices",
+    "joined_field",
     "quad_layout",
 ]

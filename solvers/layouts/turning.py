@@ -52,8 +52,39 @@ def joined_field(prepared: PreparedSurface, turns: Sequence[int] | None = None) 
 
     Parameters
     ----------
-    prepared, turns
+    prepared : PreparedSurface
+        The surface and the configuration.
+    turns : sequence of int, optional
         As of `aligned_field`.
+
+    Returns
+    -------
+    AlignedField
+        As of `aligned_field`.
+
+    Raises
+    ------
+    CrossviewError
+        As `aligned_field`.
+
+    Examples
+    --------
+    On a sphere nothing fixes the direction of the crosses. Turned so, the eight corners of a cube
+    have the twelve edges between them for separatrices:
+
+    >>> from itertools import product
+    >>> from solvers import run
+    >>> from solvers.fields import IntegratedField, prepare
+    >>> from solvers.layouts import joined_field, quad_layout
+    >>> from solvers.primitives import sphere
+    >>> from solvers.singularities import Singularity
+    >>> surface = sphere(subdivisions=3)
+    >>> corners = product((-0.6, 0.6), repeat=3)
+    >>> cube = [Singularity(surface.closest_point(corner), 3) for corner in corners]
+    >>> aligned = joined_field(prepare(surface, cube))
+    >>> layout = run(quad_layout(IntegratedField(aligned, aligned.start)))
+    >>> layout.patches, layout.tmesh.n_arcs
+    (6, 12)
     """
     solver = joining(prepared.operators.own, prepared.singularities)
     return aligned_field(prepared, turns, like=solver.solve(prepared.singularities))
