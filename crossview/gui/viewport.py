@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import fields, replace
 
 import numpy as np
 from PySide6.QtCore import QEvent, QPointF, Qt, QTimer, Signal
@@ -208,5 +208,7 @@ def _same_picture(old: WindowState, new: WindowState) -> bool:
     unseen = {"message", "progress", "iterate", "undo_name", "redo_name", "hovered", "pinned"}
     told = old.faulty is new.faulty and old.pointed is new.pointed
     return told and all(
-        getattr(old, name) is value for name, value in vars(new).items() if name not in unseen
+        getattr(old, part.name) is getattr(new, part.name)
+        for part in fields(new)
+        if part.name not in unseen
     )

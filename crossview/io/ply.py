@@ -8,10 +8,13 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import breadth_first_order
 
 from crossview.io.polygons import Polygons
 from solvers.errors import CrossviewError
-from solvers.surface import FloatArray
+from solvers.number_checks import real_numbers, whole_numbers
+from solvers.surface import IntArray
 
 CODES = {
     "char int8": "i1",
@@ -29,10 +32,6 @@ TYPES = {name: code for names, code in CODES.items() for name in names.split()}
 ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 
 
-Fields = list[tuple[str, int]]
-"""Type and length of each array that makes up a row."""
-
-
 @dataclass
 class _Element:
     """A table of the file; a list property has a type for its length before that of its items."""
@@ -42,28 +41,37 @@ class _Element:
     properties: list[tuple[str, list[str]]] = field(default_factory=list)
 
 
+@dataclass(frozen=True, eq=False)
+class _Column:
+    """A property of all rows: how many items each has, and the items row after row."""
+
+    lengths: IntArray
+    items: npt.NDArray[Any]
+
+
 def read_ply(path: Path) -> Polygons:
     """Read vertices and faces of a PLY file, text or binary."""
-    data = path.read_bytes()
-    points, faces = np.empty((0, 3)), [np.empty((0, 3))]
+    content = path.read_bytes()
+    none = np.empty(0, dtype=np.int64)
+    points, faces = np.empty((0, 3)), _Column(none, none)
     try:
-        order, elements, start = _header(data)
-        source = _Binary(data, start, order) if order else _Text(data[start:].split())
+        order, elements, start = _header(content)
+        data = _Binary(content[start:], order) if order else _as_binary(content[start:])
+        place = 0
         for element in elements:
-            blocks = _read(source, element)
-            names = [name for name, _ in element.properties]
+            starts, place = data.rows(element, place)
+            columns = data.columns(element, starts)
             if element.name == "vertex":
-                points = np.column_stack([blocks[0][names.index(axis)] for axis in "xyz"])
+                points = np.column_stack([columns[axis].items for axis in "xyz"])
             elif element.name == "face":
-                column = names.index(
-                    "vertex_index" if "vertex_index" in names else "vertex_indices"
-                )
-                faces = [block[column] for block in blocks]
-    except (ValueError, KeyError, IndexError):
+                faces = columns["vertex_index" if "vertex_index" in columns else "vertex_indices"]
+        corners = whole_numbers("corners of faces", faces.items)
+        points = real_numbers("coordinates", points)
+    except (ValueError, KeyError, IndexError, CrossviewError):
         raise CrossviewError(
             "malformed PLY file, or cut short", str(path), "write it anew"
         ) from None
-    return Polygons.of_blocks(points.astype(np.float64), [face.astype(np.int64) for face in faces])
+    return Polygons(points, faces.lengths, corners)
 
 
 def _header(data: bytes) -> tuple[str, list[_Element], int]:
@@ -85,74 +93,106 @@ def _header(data: bytes) -> tuple[str, list[_Element], int]:
     return order, elements, data.index(b"\n", end) + 1
 
 
-class _Text:
-    """Words of a text file, read row by row."""
-
-    def __init__(self, words: list[bytes]) -> None:
-        self.words = words
-        self.place = 0
-
-    def rows(self, fields: Fields, count: int) -> list[FloatArray]:
-        """Return the arrays (count, length) of the next rows."""
-        ends = np.cumsum([length for _, length in fields])
-        words = self.words[self.place : self.place + count * int(ends[-1])]
-        self.place += len(words)
-        table = np.array(words, dtype="S").astype(np.float64).reshape(count, ends[-1])
-        return np.split(table, ends[:-1], axis=1)
-
-
 class _Binary:
-    """Bytes of a binary file, read row by row."""
+    """The rows of the elements of a file, one after the other.
 
-    def __init__(self, data: bytes, place: int, order: str) -> None:
-        self.data = data
-        self.place = place
-        self.order = order
-
-    def rows(self, fields: Fields, count: int) -> list[npt.NDArray[Any]]:
-        """Return the arrays (count, length) of the next rows."""
-        row = np.dtype([(str(i), self.order + kind, (n,)) for i, (kind, n) in enumerate(fields)])
-        table = np.frombuffer(self.data, row, count, self.place)
-        self.place += count * row.itemsize
-        return [table[str(i)] for i in range(len(fields))]
-
-
-def _read(source: _Text | _Binary, element: _Element) -> list[list[npt.NDArray[Any]]]:
-    """Return the columns of an element in blocks of rows whose lists are equally long."""
-    if element.count == 0:
-        return [[np.empty((0, 3)) for _ in element.properties]]
-    start = source.place
-    try:
-        return [_columns(source, element, element.count)]
-    except ValueError:  # not all rows are as long as the first
-        source.place = start
-        return [_columns(source, element, 1) for _ in range(element.count)]
-
-
-def _columns(source: _Text | _Binary, element: _Element, count: int) -> list[npt.NDArray[Any]]:
-    """Return the columns of the next rows.
-
-    Raises
-    ------
-    ValueError
-        When their lists differ in length, or the data end before.
+    Parameters
+    ----------
+    data : bytes
+        What follows the header.
+    order : str
+        The byte order of numbers.
+    kind : str, optional
+        The type that all numbers have, whatever the header says.
     """
-    start = source.place
-    fields: Fields = []
-    for _, types in element.properties:
-        length = 1
-        if len(types) == 2:
-            length = int(source.rows([(types[0], 1)], 1)[0][0, 0])
-            fields.append((types[0], 1))
-        fields.append((types[-1], length))
-        source.rows(fields[-1:], 1)
-    source.place = start
-    arrays = iter(source.rows(fields, count))
-    columns = []
-    for _, types in element.properties:
-        if len(types) == 2:
-            lengths = next(arrays)
-            if (lengths != lengths[0]).any():
-                raise ValueError
-        columns.append(next(arrays))
-    return columns
+
+    def __init__(self, data: bytes, order: str, kind: str = "") -> None:
+        self._data = data
+        self._order = order
+        self._kind = kind
+
+    def rows(self, element: _Element, place: int) -> tuple[IntArray, int]:
+        """Return where each row of an element starts, and where the next element does.
+
+        Raises
+        ------
+        ValueError
+            When the data end before.
+        """
+        count = element.count
+        if not count:
+            return np.empty(0, dtype=np.int64), place
+        if count > len(self._data):
+            raise ValueError
+        row = int(self._ends(element, np.array([place]))[0]) - place
+        starts = place + row * np.arange(count)
+        ends = self._ends(element, starts)
+        if (ends[:-1] != starts[1:]).any():  # not all rows are as long as the first
+            starts = self._chain(element, place)[:count]
+            ends = self._ends(element, starts)
+        if len(starts) < count or ends[-1] > len(self._data):
+            raise ValueError
+        return starts, int(ends[-1])
+
+    def columns(self, element: _Element, starts: IntArray) -> dict[str, _Column]:
+        """Return the properties of rows that start at given places."""
+        columns, at = {}, starts
+        for name, types in element.properties:
+            lengths, at = self._lengths(types, at)
+            width = self._type(types[-1]).itemsize
+            first = np.repeat(at - width * (np.cumsum(lengths) - lengths), lengths)
+            items = self._numbers(types[-1])[first + width * np.arange(len(first))]
+            columns[name] = _Column(lengths, items)
+            at = at + width * lengths
+        return columns
+
+    def _chain(self, element: _Element, place: int) -> IntArray:
+        """Return where rows start that may differ in length, as far as the data go.
+
+        Each place is joined with the one where a row from it would end; the rows' own starts are
+        what can be reached from the first.
+        """
+        unit = self._type(self._kind).itemsize if self._kind else 1
+        places = np.arange(place, len(self._data) + 1, unit)
+        last = len(places) - 1
+        following = np.minimum((self._ends(element, places) - place) // unit, last)
+        graph = csr_array(
+            (np.ones(len(places), dtype=np.int8), following, np.arange(len(places) + 1)),
+            shape=(len(places), len(places)),
+        )
+        reached = breadth_first_order(graph, 0, return_predecessors=False)
+        return np.asarray(places[reached[reached < last]])
+
+    def _ends(self, element: _Element, at: IntArray) -> IntArray:
+        """Return where rows from given places end; beyond the data if they are cut short."""
+        for _, types in element.properties:
+            lengths, at = self._lengths(types, at)
+            at = at + self._type(types[-1]).itemsize * lengths
+        return at
+
+    def _lengths(self, types: list[str], at: IntArray) -> tuple[IntArray, IntArray]:
+        """Return how many items properties at given places have, and where those begin."""
+        if len(types) == 1:
+            return np.ones(len(at), dtype=np.int64), at
+        numbers = self._numbers(types[0])
+        inside = at < len(numbers)
+        found = np.where(inside, numbers[np.where(inside, at, 0)], 0)
+        whole = (found >= 0) & (found <= len(self._data)) & (found == np.rint(found))
+        # What is no length makes a row that is cut short.
+        lengths = np.where(whole, found, len(self._data)).astype(np.int64)
+        return lengths, at + self._type(types[0]).itemsize
+
+    def _type(self, kind: str) -> np.dtype[Any]:
+        return np.dtype(self._order + (self._kind or kind))
+
+    def _numbers(self, kind: str) -> npt.NDArray[Any]:
+        """Return the numbers of a type that begin at each byte."""
+        dtype = self._type(kind)
+        count = max(len(self._data) - dtype.itemsize + 1, 0)
+        return np.ndarray((count,), dtype, self._data, strides=(1,))
+
+
+def _as_binary(text: bytes) -> _Binary:
+    """Return the numbers of a text file as those of a binary one."""
+    numbers = np.array(text.split(), dtype="S").astype("<f8")
+    return _Binary(numbers.tobytes(), "<", "f8")

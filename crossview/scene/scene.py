@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from typing import Protocol
 
 import numpy as np
@@ -116,7 +117,7 @@ class Scene:
         bool
             Whether the picture may differ, i.e. the plotter is to render.
         """
-        if not self._watch.changed("view", *vars(view).values()):
+        if not self._watch.changed("view", *(getattr(view, f.name) for f in fields(view))):
             return False
         if self._watch.changed("surface", view.points, view.faces):
             self._triangles = _drawable(view.points, view.faces)

@@ -11,7 +11,8 @@ of it: the same answer in every triangle, also where a trace runs along edges.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
 
@@ -69,11 +70,14 @@ class Chords:
     @classmethod
     def joined(cls, pieces: Sequence[Chords]) -> Chords:
         """Return the chords of all pieces, one after the other."""
-        columns = zip(*(vars(piece).values() for piece in pieces), strict=True)
+        columns = zip(*(piece._columns() for piece in pieces), strict=True)
         return cls(*(np.concatenate(column) for column in columns))
 
+    def _columns(self) -> list[Any]:
+        return [getattr(self, column.name) for column in fields(self)]
+
     def __getitem__(self, chosen: IntArray | BoolArray) -> Chords:
-        return Chords(*(values[chosen] for values in vars(self).values()))
+        return Chords(*(values[chosen] for values in self._columns()))
 
 
 @dataclass(frozen=True, eq=False)
