@@ -22,11 +22,10 @@ from crossview.workflow import quads as meshes
 from crossview.workflow.pipeline import Pipeline
 from crossview.workflow.problem import Problem
 from crossview.workflow.solution import Solution
+from solvers import Progress, TriSurface, run
 from solvers.fields import CURVATURE_WEIGHT
 from solvers.layouts import QuadLayout
-from solvers.progress import Progress, run
 from solvers.quads import QuadMesh
-from solvers.surface import TriSurface
 
 Watch = Callable[[Progress], object] | None
 """What is called with each step of a long computation."""

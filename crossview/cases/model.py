@@ -20,7 +20,7 @@ from crossview.cases.parts import (
     Sizes,
     check_method,
 )
-from crossview.cases.records import Record, documented, key
+from crossview.cases.records import Record, checked, documented, key
 from crossview.cases.scalars import Text, Word
 from crossview.cases.surfaces import Builtin, SurfaceName
 from crossview.io.staged_files import staged
@@ -99,8 +99,9 @@ class Case:
         features: float | None = None,
         component: int | str | None = None,
         repair: bool = False,
+        prefix: str = "",
     ) -> Case:
-        """The same case but for what is chosen on a command line or in a script.
+        """Return the same case but for what is chosen on a command line or in a script.
 
         Parameters
         ----------
@@ -112,6 +113,8 @@ class Case:
             Of a surface in several pieces: "largest", a number (0 is the largest) or "all".
         repair : bool, optional
             Whether to repair even if the case does not ask for it.
+        prefix : str, optional
+            What stands before the names of choices where one is wrong.
 
         Returns
         -------
@@ -123,27 +126,20 @@ class Case:
         CaseError
             There is no such method or component, or no such angle.
         """
-        if features is not None and not 0 < features <= 180:
-            raise CaseError(
-                f"features cannot be sharper than {features:g} degrees",
-                "features",
-                "an angle above 0 and at most 180",
-            )
-        if isinstance(component, str) and component not in ("largest", "all"):
-            raise CaseError(
-                f'unknown component "{component}"',
-                "component",
-                "largest, all or a number (0 is the largest)",
-            )
-        options, marked = self.options, self.features
-        chosen = options.component if component is None else component
-        angle = marked.dihedral_degrees if features is None else features
-        return replace(
-            self,
-            method=self.method if method is None else check_method(method, "method"),
-            options=replace(options, component=chosen, repair=options.repair or repair),
-            features=replace(marked, dihedral_degrees=angle),
-        )
+        given = {"component": component, "features": features}
+        chosen = {k: JsonField(v, f"{prefix}{k}") for k, v in given.items() if v is not None}
+        case = self
+        if "component" in chosen:
+            taken = checked(Options, "component", chosen["component"])
+            case = replace(case, options=replace(case.options, component=taken))
+        if repair:
+            case = replace(case, options=replace(case.options, repair=True))
+        if "features" in chosen:
+            degrees = checked(PlacedFeatures, "dihedral_degrees", chosen["features"])
+            case = replace(case, features=replace(case.features, dihedral_degrees=degrees))
+        if method is not None:
+            case = replace(case, method=check_method(method, f"{prefix}method"))
+        return case
 
     @classmethod
     def load(cls, path: str | Path) -> Case:

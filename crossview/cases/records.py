@@ -47,6 +47,26 @@ def keys_of(kind: type) -> dict[str, Key]:
     return {field.name: field.metadata["key"] for field in dataclasses.fields(kind)}
 
 
+def checked(kind: type, name: str, entry: JsonField) -> Any:
+    """Return a value from elsewhere, checked as that of a key of a case file is.
+
+    Parameters
+    ----------
+    kind : type
+        The dataclass that has the key.
+    name : str
+        The key.
+    entry : JsonField
+        The value, with where it stands.
+
+    Raises
+    ------
+    CaseError
+        It is wrong.
+    """
+    return keys_of(kind)[name].shape.read(entry, Path())
+
+
 def defaults_of(kind: type) -> dict[str, Any]:
     """Return the default values of a dataclass by name, of the keys that have one."""
     found = {}

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from crossview.cli.options import Output, Quiet, SurfaceOptions
 from crossview.cli.terminal import say, watch
+from crossview.workflow import placing
 from crossview.workflow.problem import Problem
-from solvers.fields import IsotropicSolver
-from solvers.validity import missing_singularities
 
 
 def complete(
@@ -30,10 +27,9 @@ def complete(
     """
     found = chosen.case(case)
     problem = Problem.from_case(found)
-    solver = IsotropicSolver(problem.surface, problem.corners)
-    added = watch(missing_singularities(solver, problem.singularities), quiet)
-    completed = replace(problem, singularities=(*problem.singularities, *added))
+    completed = watch(placing.complete(problem), quiet)
     completed.to_case(found.surface, found.title).save(output)
     if not quiet:
+        added = completed.singularities[len(problem.singularities) :]
         count = f"added {len(added)} of valence {added[0].valence}" if added else ""
         say(f"{count or 'nothing is missing'}; wrote {output}")

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from crossview.cli.options import Output, Quiet, SurfaceOptions
 from crossview.cli.terminal import say, watch
+from crossview.workflow import placing
 from crossview.workflow.problem import Problem
-from solvers.validity import make_valid as moved_to_validity
 
 
 def make_valid(
@@ -29,16 +27,12 @@ def make_valid(
     """
     found = chosen.case(case)
     problem = Problem.from_case(found)
-    surface = problem.surface
-    end = watch(
-        moved_to_validity(surface, problem.singularities, problem.corners, problem.options.refine),
-        quiet,
-    )
-    valid = replace(problem, singularities=end.singularities)
+    valid, end = watch(placing.make_valid(problem), quiet)
     valid.to_case(found.surface, found.title).save(output)
     if not quiet:
-        before = surface.positions([s.point for s in problem.singularities])
-        after = surface.positions([s.point for s in end.singularities])
+        before, after = (
+            p.surface.positions([s.point for s in p.singularities]) for p in (problem, valid)
+        )
         farthest = float(((after - before) ** 2).sum(axis=1).max(initial=0.0) ** 0.5)
         layout = f", aimed at {end.layout}" if end.layout else ""
         say(f"valid: singularities moved by up to {farthest:.3g}{layout}; wrote {output}")

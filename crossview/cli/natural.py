@@ -2,18 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from crossview.cli.options import FeatureOptions, Output, Quiet
 from crossview.cli.terminal import say, watch
+from crossview.workflow import placing
 from crossview.workflow.problem import Problem
-from solvers.fields import (
-    CURVATURE_WEIGHT,
-    NATURAL_ALIGNMENTS,
-    NATURAL_METHODS,
-    natural_singularities,
-)
-from solvers.singularities import require_budget
+from solvers.fields import CURVATURE_WEIGHT, NATURAL_ALIGNMENTS, NATURAL_METHODS
 
 
 def natural(
@@ -46,18 +39,9 @@ def natural(
         How strongly the curvature draws.
     """
     found = chosen.case(surface)
-    problem = replace(Problem.from_case(found), singularities=(), corners=None)
-    computation = natural_singularities(
-        problem.surface,
-        method,
-        seed,
-        alignment=alignment,
-        weight=weight,
-        features=problem.features,
-    )
-    singularities = watch(computation, quiet)
-    require_budget(problem.surface, singularities, problem.chosen_corners)
-    placed = replace(problem, singularities=singularities)
-    placed.to_case(found.surface, found.title).save(output)
+    given = Problem.from_case(found)
+    computation = placing.natural(given, method, seed, alignment=alignment, weight=weight)
+    problem = watch(computation, quiet)
+    problem.to_case(found.surface, found.title).save(output)
     if not quiet:
-        say(f"{len(singularities)} singularities; wrote {output}")
+        say(f"{len(problem.singularities)} singularities; wrote {output}")

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from pathlib import Path
+from dataclasses import asdict, dataclass
 from typing import Annotated, Any
 
 from cyclopts import Group, Parameter
 
 from crossview.cases.gallery import find_case
-from crossview.cases.json_values import JsonField
-from crossview.cases.model import Case, Options, PlacedFeatures, check_method
-from crossview.cases.records import keys_of
+from crossview.cases.model import Case
 from crossview.workflow.quads import MeshOptions
 from solvers.errors import CrossviewError
 
@@ -52,12 +49,10 @@ class SurfaceOptions:
         CrossviewError
             There is no such case, or an option is wrong.
         """
-        case = find_case(target)
-        changes: dict[str, Any] = {"repair": True} if self.repair else {}
-        if self.component is not None:
-            given = int(self.component) if self.component.isdecimal() else self.component
-            changes["component"] = _checked(Options, "component", given)
-        return replace(case, options=replace(case.options, **changes))
+        chosen: dict[str, Any] = asdict(self)
+        if self.component is not None and self.component.isdecimal():
+            chosen["component"] = int(self.component)
+        return find_case(target).with_choices(**chosen, prefix="--")
 
 
 @Parameter(name="*", group=CASE)
@@ -74,14 +69,6 @@ class FeatureOptions(SurfaceOptions):
 
     features: float | None = None
 
-    def case(self, target: str) -> Case:
-        """Return the case that `target` names, with what these options say instead."""
-        case = super().case(target)
-        if self.features is None:
-            return case
-        degrees = _checked(PlacedFeatures, "dihedral_degrees", self.features, "features")
-        return replace(case, features=replace(case.features, dihedral_degrees=degrees))
-
 
 @Parameter(name="*", group=CASE)
 @dataclass(frozen=True)
@@ -95,13 +82,6 @@ class CaseOptions(FeatureOptions):
     """
 
     method: str | None = None
-
-    def case(self, target: str) -> Case:
-        """Return the case that `target` names, with what these options say instead."""
-        case = super().case(target)
-        if self.method is None:
-            return case
-        return replace(case, method=check_method(self.method, "--method"))
 
 
 @Parameter(name="*", group=QUADS)
@@ -144,9 +124,3 @@ class QuadOptions:
             if given not in (None, False):
                 raise CrossviewError(f"--{name.replace('_', '-')} is about quads", "", advice)
         return None
-
-
-def _checked(kind: type, key: str, value: object, option: str = "") -> Any:
-    """Return a value of the command line, checked as the same key of a case file is."""
-    entry = JsonField(value, f"--{option or key}")
-    return keys_of(kind)[key].shape.read(entry, Path())

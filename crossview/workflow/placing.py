@@ -6,6 +6,7 @@ from collections.abc import Generator
 from dataclasses import replace
 
 from crossview.workflow.problem import Problem
+from solvers import Progress
 from solvers.fields import (
     CURVATURE_WEIGHT,
     NATURAL_ALIGNMENTS,
@@ -13,7 +14,6 @@ from solvers.fields import (
     IsotropicSolver,
     natural_singularities,
 )
-from solvers.progress import Progress
 from solvers.singularities import require_budget
 from solvers.validity import Moved, missing_singularities
 from solvers.validity import make_valid as moved_to_validity
