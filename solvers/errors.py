@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copyreg
 from collections.abc import Callable, Iterable
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -43,6 +45,10 @@ class CrossviewError(Exception):
     def __str__(self) -> str:
         """Return ``what (where): what to do`` without line breaks."""
         return self.line()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle all that is told: exceptions by themselves only pickle their arguments."""
+        return copyreg.__newobj__, (type(self), *self.args), vars(self)  # type: ignore[attr-defined]
 
     def line(self, told: Callable[[Remedy], str] = lambda remedy: remedy.words) -> str:
         """Return ``what (where): what to do`` without line breaks.

@@ -32,13 +32,21 @@ class Number(Shape):
     @property
     def words(self) -> str:
         """What it takes, with its article."""
-        name = "a whole number" if self.whole else "a number"
+        return f"a {'whole ' if self.whole else ''}number{self._limits}"
+
+    @property
+    def many(self) -> str:
+        """What several are called."""
+        return f"{'whole ' if self.whole else ''}numbers{self._limits}"
+
+    @property
+    def _limits(self) -> str:
         if self.least is not None:
             last = " on" if self.most is None else f" to {self.most:g}"
-            return f"{name} from {self.least:g}{last}"
+            return f" from {self.least:g}{last}"
         limits = {"above": self.above, "at most": self.most}
         told = [f"{word} {limit:g}" for word, limit in limits.items() if limit is not None]
-        return f"{name} {' and '.join(told)}".rstrip()
+        return f" {' and '.join(told)}" if told else ""
 
     def fits(self, value: object) -> bool:
         """Whether it is a number at all."""

@@ -36,7 +36,7 @@ class Shape(ABC):
     @property
     def many(self) -> str:
         """What several are called: "numbers above 0"."""
-        return self.words.partition(" ")[2].replace("number", "numbers", 1)
+        return f"values, each {self.words}"
 
     @abstractmethod
     def fits(self, value: object) -> bool:

@@ -1,13 +1,16 @@
 """What an error says is to be done, and what a program makes of it."""
 
+import pickle
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from solvers.errors import CrossviewError, SurfaceError
+from solvers.layouts.errors import LayoutError
 from solvers.remedies import ANISOTROPIC, MAKE_VALID, Remedy, RepairSurface
 from solvers.surface.validation import problems
+from solvers.validity.attempts import PlaceAnew, ValidityError
 from tests.solvers.suite import SURFACES
 
 
@@ -65,3 +68,20 @@ def test_what_repair_mends_says_so_by_its_kind() -> None:
     ):
         for problem in problems(vertices, np.array(bad)):
             assert [type(remedy) for remedy in problem.remedies] == [RepairSurface]
+
+
+def test_errors_come_whole_from_other_processes() -> None:
+    """As those of a batch: what is raised there is pickled."""
+    place = PlaceAnew("move", (), "another layout")
+    for error in (
+        CrossviewError("it fails", "here", "go away", remedies=[MAKE_VALID]),
+        SurfaceError("it fails", elements=[7], kind="faces", remedies=[RepairSurface("repair it")]),
+        LayoutError("it fails", faces=np.array([3]), remedies=[ANISOTROPIC]),
+        ValidityError("it fails", "here", "", 2, [place]),
+    ):
+        again = pickle.loads(pickle.dumps(error))
+        assert type(again) is type(error)
+        assert str(again) == str(error)
+        assert vars(again).keys() == vars(error).keys()
+        assert again.remedies == error.remedies
+    assert again.condition == 2
