@@ -64,6 +64,14 @@ def test_no_name_hides_a_module() -> None:
         assert modules.isdisjoint(room.__all__), package
 
 
+@each_exported
+def test_no_property_says_its_type(thing: Callable[..., Any]) -> None:
+    """What stands before a colon in the first line would be taken for one."""
+    for name, member in members(thing).items():
+        first = (member.__doc__ or "").partition("\n")[0]
+        assert not (isinstance(member, property | cached_property) and ":" in first), name
+
+
 def members(thing: object) -> dict[str, object]:
     """The public methods and properties that a class defines itself."""
     kinds = (FunctionType, classmethod, staticmethod, property, cached_property)

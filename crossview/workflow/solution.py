@@ -104,7 +104,7 @@ class Solution:
 
     @cached_property
     def separatrices(self) -> Separatrices:
-        """Traced along the crosses: quick, and near those of a layout."""
+        """Traced along the crosses, quick and near those of a layout."""
         return field_separatrices(self.field)
 
     @property

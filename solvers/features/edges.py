@@ -156,7 +156,7 @@ class Features:
 
     @cached_property
     def corners(self) -> IntArray:
-        """Vertices where curves end: ends, junctions, sharp turns, and those on the boundary."""
+        """Vertices where curves end, at ends, junctions, sharp turns and the boundary."""
         passed = (self.degrees == 2) & ~self.surface.boundary_vertices & (self.turns < SHARP_TURN)
         return np.flatnonzero((self.degrees > 0) & ~passed)
 

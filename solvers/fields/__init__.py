@@ -15,7 +15,7 @@ from solvers.fields.natural import (
     CrossesStep,
     natural_singularities,
 )
-from solvers.fields.prepared import PreparedSurface, prepare
+from solvers.fields.prepared import Operators, PreparedSurface, prepare
 from solvers.fields.sizes import size_map
 from solvers.fields.verdict import Limits, Verdict, judge
 
@@ -33,6 +33,7 @@ __all__ = [
     "IntegratedField",
     "IsotropicSolver",
     "Limits",
+    "Operators",
     "PreparedSurface",
     "Verdict",
     "aligned_field",

@@ -49,7 +49,9 @@ class NewtonStep(Progress):
 
     Parameters
     ----------
-    stage, fraction : str, float
+    stage : str
+        As in `Progress`.
+    fraction : float
         As in `Progress`.
     energy : float
         E after the step.

@@ -121,7 +121,10 @@ class CrossField:
 
     @cached_property
     def aspect_roughness(self) -> float:
-        """The integral of |grad s|^2, s = (H2 - H1) / 2: unbounded under refinement if forced."""
+        """The integral of |grad s|^2 for s = (H2 - H1) / 2.
+
+        If the field is forced it grows without bound under refinement.
+        """
         t = self.surface.triangulation
         return float(t.areas @ (t.gradients(self.half_log_aspect) ** 2).sum(axis=1))
 

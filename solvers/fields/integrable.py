@@ -29,7 +29,9 @@ class FieldStep(Progress):
 
     Parameters
     ----------
-    stage, fraction : str, float
+    stage : str
+        As in `Progress`.
+    fraction : float
         As in `Progress`.
     energies : tuple of float
         E at the start and after each iteration so far.

@@ -44,7 +44,8 @@ class IsotropicSolver:
         Index of each boundary vertex where the field turns; by default what `default_corners`
         reads from the interior angles.
     delaunay : bool, optional
-        As in `Discretization`.
+        Whether to flip edges to intrinsic Delaunay; without, the operator lives on the surface's
+        own triangles and may have negative weights where they are obtuse.
     features : Features, optional
         Of the surface. The field is not aligned with them, but says how far off it is; without
         a boundary all crosses are turned alike, so that it is off as little as may be.
@@ -65,7 +66,7 @@ class IsotropicSolver:
 
     Examples
     --------
-    The four valences 3 of a disk leave nothing to chance but their places:
+    A disk with four valences 3, which its index budget asks for:
 
     >>> from solvers.fields import IsotropicSolver
     >>> from solvers.primitives import disk

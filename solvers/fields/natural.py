@@ -66,7 +66,9 @@ class CrossesStep(Progress):
 
     Parameters
     ----------
-    stage, fraction : str, float
+    stage : str
+        As in `Progress`.
+    fraction : float
         As in `Progress`.
     surface : TriSurface
         Where.

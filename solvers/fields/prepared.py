@@ -36,6 +36,16 @@ class Operators:
         As of `IsotropicSolver`.
     features : Features
         Of the surface.
+
+    Examples
+    --------
+    Where the surface's triangles are Delaunay, both are one:
+
+    >>> from solvers.fields import prepare
+    >>> from solvers.primitives import square
+    >>> operators = prepare(square(n=4)).operators
+    >>> operators.own is operators.delaunay
+    True
     """
 
     surface: TriSurface
@@ -49,7 +59,7 @@ class Operators:
 
     @cached_property
     def delaunay(self) -> IsotropicSolver:
-        """On the intrinsic Delaunay triangulation: the better one for an isotropic field.
+        """On the intrinsic Delaunay triangulation, the better one for an isotropic field.
 
         The same as `own` where the surface's triangles are Delaunay.
         """

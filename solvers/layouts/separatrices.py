@@ -78,9 +78,9 @@ class Separatrices:
 
     @property
     def leaving(self) -> int:
-        """Number of ends at singularities and corners: each curve once, or twice if it joins two.
+        """Number of ends at singularities and corners.
 
-        Curves that start from a seed do not count.
+        Each curve counts once, or twice if it joins two; those that start from a seed do not.
         """
         own = self.valences >= 0
         return int(np.count_nonzero(own) + np.count_nonzero(self.ends[own] == SINGULARITY))

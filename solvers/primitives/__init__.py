@@ -38,7 +38,7 @@ BUILTIN: dict[str, Callable[..., TriSurface]] = {
         genus,
     )
 }
-"""The functions that make the built-in surfaces, by name: ``BUILTIN["torus"](n=36)``."""
+"""The functions that make the built-in surfaces by name, as ``BUILTIN["torus"](n=36)`` does."""
 
 __all__ = [
     "BUILTIN",

@@ -55,8 +55,7 @@ class Refinement:
     [4, 4, 4, 4, 4, 4, 4, 4]
     >>> fine = refinement.surface.point_at_vertex(9)  # a new one
     >>> lifted = refinement.lift(fine)
-    >>> same = refinement.coarse.position(lifted) == refinement.surface.position(fine)
-    >>> bool(same.all())
+    >>> np.allclose(refinement.coarse.position(lifted), refinement.surface.position(fine))
     True
     """
 

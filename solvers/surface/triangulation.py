@@ -115,7 +115,7 @@ class IntrinsicTriangulation:
 
     @cached_property
     def edge_halfedges(self) -> IntArray:
-        """(ne,) the representing halfedge of each edge: the lower-numbered of the two."""
+        """(ne,) the representing halfedge of each edge, the lower-numbered of the two."""
         h = np.arange(len(self.twin))
         return np.flatnonzero((self.twin < 0) | (h < self.twin))
 

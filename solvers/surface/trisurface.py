@@ -195,7 +195,7 @@ class TriSurface:
 
     @cached_property
     def face_frames(self) -> tuple[FloatArray, FloatArray]:
-        """Two (m, 3) unit vectors of each face: along its first edge, and 90 degrees further."""
+        """Two (m, 3) unit vectors of each face, along its first edge and 90 degrees further."""
         along = self.vertices[self.faces[:, 1]] - self.vertices[self.faces[:, 0]]
         along /= np.linalg.norm(along, axis=1)[:, None]
         return along, np.cross(self.face_normals, along)
@@ -217,7 +217,7 @@ class TriSurface:
 
     @cached_property
     def triangle_quality(self) -> FloatArray:
-        """(m,) 4 sqrt(3) area / sum of squared edges: 1 equilateral, 0 degenerate."""
+        """(m,) 4 sqrt(3) area / sum of squared edges, from 0 (degenerate) to 1 (equilateral)."""
         squares = (self.triangulation.lengths**2).sum(axis=1)
         return np.asarray(4 * np.sqrt(3) * self.face_areas / squares)
 

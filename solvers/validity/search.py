@@ -56,7 +56,9 @@ class Moved(Progress):
 
     Parameters
     ----------
-    stage, fraction : str, float
+    stage : str
+        As in `Progress`.
+    fraction : float
         As in `Progress`.
     singularities : tuple of Singularity
         Where they are.
