@@ -146,7 +146,7 @@ def row(surface: TriSurface, made: Made) -> list[str]:
 
 
 def _outward(made: Made) -> np.ndarray:
-    """Normals (q, 3) of what is around each quad: one that is turned over disagrees with them."""
+    """Normals (q, 3) of what is around each quad: one that is inverted disagrees with them."""
     corners = made.vertices[made.quads]
     own = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
     normals = np.zeros_like(made.vertices)

@@ -108,7 +108,7 @@ def _inverted(quads: QuadMesh) -> str:
     wide = inverted & halves[quads.quads].any(axis=1)
     said, others = "", np.count_nonzero(inverted & ~wide)
     if others:
-        said += f"; {others} are turned over: try more quads"
+        said += f"; {others} are inverted: try more quads"
     if wide.any():
         number = np.count_nonzero(wide)
         said += f"; {number} have a corner of 180 degrees or more, as those around a valence 2 do"
@@ -225,7 +225,7 @@ def _layout(solution: Solution, layout: QuadLayout | None) -> dict[str, Any]:
         "added_curves": int(np.count_nonzero(~own)),
         "patches": None if layout is None else layout.patches,
         "conforming": None if layout is None else layout.conforming,
-        "flips": None if layout is None else layout.flips,
+        "flips": None if layout is None else layout.inverted,
         "stiffened": None if layout is None else layout.mended,
     }
 

@@ -24,7 +24,7 @@ def layout(solution: Solution) -> Generator[Progress, None, QuadLayout]:
     ------
     LayoutError
         The field misses a boundary or is not integrable, there is no quad mesh with these
-        singularities, or triangles are turned over in the map.
+        singularities, or triangles are inverted in the map.
     """
     _require_possible(solution)
     yield Progress("aligning with the boundaries", 0.0)

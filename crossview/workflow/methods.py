@@ -73,7 +73,7 @@ def inverted_triangles(integrated: IntegratedField | None, limits: Limits) -> in
     """How many triangles are inverted in the map of a field; None if it has none."""
     if integrated is None or integrated.field.energy > limits.energy:
         return None
-    return len(seamless_map(integrated).flipped)
+    return len(seamless_map(integrated).inverted)
 
 
 def _same_turns(aligned: AlignedField, finer: PreparedSurface) -> list[int] | None:

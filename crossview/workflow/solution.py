@@ -49,7 +49,7 @@ class Solution:
     growth : float, or None
         Of int |grad s|^2 on a once refined mesh; None if not asked for.
     inverted : int, or None
-        Triangles turned over in the seamless map; None where the field has none.
+        Inverted triangles of the seamless map; None where the field has none.
 
     Examples
     --------

@@ -88,7 +88,7 @@ class AlignedField:
         i = self.integrability
         conjugate = self.isotropic.H[i.triangulation.faces] + fraction * self.correction
         turned = None if self.turned is None else fraction * self.turned
-        return Integrability(i.discretization, conjugate, i.quarter_turns, i.features, turned)
+        return Integrability(i.discretization, conjugate, i.period_jumps, i.features, turned)
 
     @cached_property
     def forced_corners(self) -> IntArray:

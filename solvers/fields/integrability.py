@@ -85,7 +85,7 @@ class Integrability:
         The surface.
     conjugate : (m, 3) float array
         Corner values of the (multiple-valued) function whose conjugate the initial field is.
-    quarter_turns : (3 m,) int array, optional
+    period_jumps : (3 m,) int array, optional
         As the attribute; by default the nearest to the initial field's turns over each edge.
     features : (k,) int array, optional
         As the attribute; by default none.
@@ -102,7 +102,7 @@ class Integrability:
         The initial field at the barycentres, radians.
     offsets : (m, 3) float array
         How far it turns from there to the edge midpoints.
-    quarter_turns : (3 m,) int array
+    period_jumps : (3 m,) int array
         Quarter turns from the cross of each halfedge's triangle to that of its twin's.
     sheet : (m, 3) int array
         Sign of s at each corner, 0 where it vanishes.
@@ -114,7 +114,7 @@ class Integrability:
         self,
         discretization: Discretization,
         conjugate: FloatArray,
-        quarter_turns: IntArray | None = None,
+        period_jumps: IntArray | None = None,
         features: IntArray = NO_FEATURES,
         turned: FloatArray | None = None,
     ) -> None:
@@ -134,8 +134,8 @@ class Integrability:
         midpoint = np.repeat(self.theta, 3) + self.offsets.reshape(-1)
         across = np.where(t.twin >= 0, midpoint[t.twin] - t.transport, midpoint)
         nearest = np.rint((midpoint - across) / QUARTER).astype(np.int64)
-        self.quarter_turns = nearest if quarter_turns is None else quarter_turns
-        self.sheet = _sheets(t.twin, self.quarter_turns).reshape(-1, 3)
+        self.period_jumps = nearest if period_jumps is None else period_jumps
+        self.sheet = _sheets(t.twin, self.period_jumps).reshape(-1, 3)
         self.unknowns = self._number_unknowns()
         self.assembly = ElementAssembly(self.unknowns, int(self.unknowns.max()) + 1)
 
@@ -221,7 +221,7 @@ class Integrability:
         return Residual((scale * rho).T, differentiate)
 
 
-def _sheets(twin: IntArray, quarter_turns: IntArray) -> IntArray:
+def _sheets(twin: IntArray, period_jumps: IntArray) -> IntArray:
     """Return on which sheet of its vertex each corner lies: 1 or -1; 0 where both are one.
 
     Both sheets of a corner continue into the next corner around the vertex, swapped over odd
@@ -230,7 +230,7 @@ def _sheets(twin: IntArray, quarter_turns: IntArray) -> IntArray:
     n = len(twin)
     h = np.flatnonzero(twin >= 0)
     beside = next_halfedge(twin[h])
-    odd = quarter_turns[h] % 2
+    odd = period_jumps[h] % 2
     rows = np.concatenate([h, h + n])
     columns = np.concatenate([beside + n * odd, beside + n * (1 - odd)])
     graph = coo_array((np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(2 * n, 2 * n))

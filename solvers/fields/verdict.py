@@ -107,9 +107,9 @@ class Verdict:
     Examples
     --------
     >>> from solvers.fields import Verdict
-    >>> verdict = Verdict("suspect", "1 triangle is turned over in the seamless map.")
+    >>> verdict = Verdict("suspect", "1 triangle is inverted in the seamless map.")
     >>> print(verdict)
-    1 triangle is turned over in the seamless map.
+    1 triangle is inverted in the seamless map.
     """
 
     status: Literal["valid", "suspect", "impossible", "unknown"]
@@ -137,7 +137,7 @@ def judge(
     field : CrossField
         What to judge.
     inverted : int, optional
-        Triangles inverted in its seamless map; None where there is no such map.
+        Inverted triangles in its seamless map; None where there is no such map.
     growth : float, optional
         int |grad s|^2 on a once refined mesh over that of the field.
     limits : Limits, optional
@@ -227,7 +227,7 @@ def _judge_quality(field: CrossField, inverted: int | None, growth: float | None
     """Judge what is aligned and integrable."""
     if inverted:
         which = "1 triangle is" if inverted == 1 else f"{inverted} triangles are"
-        return Verdict("suspect", f"{which} turned over in the seamless map.")
+        return Verdict("suspect", f"{which} inverted in the seamless map.")
     if field.max_log_aspect > EXTREME_ASPECT:
         ratio = np.exp(field.max_log_aspect)
         return Verdict("suspect", f"The two sizes differ by a factor of {ratio:.0f}.")

@@ -34,14 +34,14 @@ class Chart:
         The triangles.
     images : (m, 3) complex array
         Image of each halfedge in its triangle's frame.
-    quarter_turns : (3 m,) int array
+    period_jumps : (3 m,) int array
         What a direction in the frame of a halfedge's triangle is turned by to become one in the
         frame of its twin's.
     """
 
     triangulation: IntrinsicTriangulation
     images: ComplexArray
-    quarter_turns: IntArray
+    period_jumps: IntArray
 
     @classmethod
     def of_field(cls, field: CrossField) -> Chart:

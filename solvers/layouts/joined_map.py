@@ -59,9 +59,9 @@ class JoinedMap:
         return self._fit.mended
 
     @property
-    def flipped(self) -> IntArray:
-        """Triangles turned over."""
-        return self._fit.map.flipped
+    def inverted(self) -> IntArray:
+        """Inverted triangles."""
+        return self._fit.map.inverted
 
     def join(self, rows: csc_array) -> bool:
         """Fit the map again so that also combinations of images vanish: of the first as many rows
@@ -80,11 +80,11 @@ class JoinedMap:
 
     def _chart(self) -> Chart:
         images = self._fit.map.images @ np.array([1, 1j])
-        return Chart(self.surface.triangulation, images, self._integrability.quarter_turns)
+        return Chart(self.surface.triangulation, images, self._integrability.period_jumps)
 
     def require_upright(self) -> None:
-        """Raise `LayoutError` if triangles are turned over."""
-        over = self.flipped
+        """Raise `LayoutError` if triangles are inverted."""
+        over = self.inverted
         if len(over) == 0:
             return
         field = self.integrated.field
@@ -96,7 +96,7 @@ class JoinedMap:
             where = "near " + ", ".join(f"singularity {n}" for n in near[:4])
         which = "1 triangle is" if len(over) == 1 else f"{len(over)} triangles are"
         raise LayoutError(
-            f"{which} turned over in the seamless map",
+            f"{which} inverted in the seamless map",
             where,
             "move these singularities apart, refine more around them, or take a finer mesh",
             faces=over,

@@ -39,8 +39,8 @@ class QuadLayout:
         The rectangles and where their arcs lie.
     separatrices : Separatrices
         As curves on the surface, seeds included.
-    flips : int
-        Triangles turned over in the map.
+    inverted : int
+        Inverted triangles of the map.
     mended : int
         Triangles made stiffer so that they are not.
 
@@ -54,14 +54,14 @@ class QuadLayout:
     >>> from solvers.primitives import square
     >>> aligned = aligned_field(prepare(square(n=4)))
     >>> layout = run(quad_layout(IntegratedField(aligned, aligned.start)))
-    >>> layout.patches, layout.flips, round(layout.tmesh.area, 9)
+    >>> layout.patches, layout.inverted, round(layout.tmesh.area, 9)
     (1, 0, 1.0)
     """
 
     integrated: IntegratedField
     arrangement: Arrangement
     separatrices: Separatrices
-    flips: int
+    inverted: int
     mended: int
 
     @property
@@ -124,7 +124,7 @@ def quad_layout(
     Raises
     ------
     LayoutError
-        The verdict refuses it, or its map has triangles turned over.
+        The verdict refuses it, or its map has inverted triangles.
 
     Notes
     -----
@@ -174,6 +174,6 @@ def quad_layout(
         integrated,
         drawing.arrangement(),
         drawing.separatrices(),
-        len(map_.flipped),
+        len(map_.inverted),
         map_.mended,
     )

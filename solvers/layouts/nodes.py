@@ -66,7 +66,7 @@ def node_at(chart: Chart, vertex: int, quads: int) -> Node:
     inner = bool(chart.triangulation.twin[previous_halfedge(ring[-1])] >= 0)
     z = chart.images.reshape(-1)
     tips = np.angle(-z[previous_halfedge(ring)] / z[ring])
-    tips = np.maximum(tips, 1e-3)  # only triangles turned over have none
+    tips = np.maximum(tips, 1e-3)  # only inverted triangles have none
     reach = np.concatenate([[0.0], np.cumsum(tips)]) * (quads * QUARTER / tips.sum())
     # Against the cross a halfedge lies at its reach plus one angle for all, modulo 90 degrees.
     reach += np.angle(np.exp(4j * (np.angle(z[ring]) - reach[:-1])).mean()) / 4

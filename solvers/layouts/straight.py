@@ -16,7 +16,7 @@ def walk(
     Parameters
     ----------
     chart : Chart
-        The map; none of the triangles walked through is turned over.
+        The map; none of the triangles walked through is inverted.
     face : (k,) int array
         Triangles the walks start in.
     place, way : (k,) complex arrays
@@ -54,7 +54,7 @@ def walk(
         face[going], entered[going] = twin // 3, twin % 3
         start, z = chart.corners[twin // 3, twin % 3], chart.images[twin // 3, twin % 3]
         place[going] = start + (1 - along) * z
-        way[going] *= AXES[chart.quarter_turns[h] % 4]
+        way[going] *= AXES[chart.period_jumps[h] % 4]
     return face, place
 
 

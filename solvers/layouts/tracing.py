@@ -183,7 +183,7 @@ class _Walk:
         h = 3 * last.face + last.side_out
         g = chart.triangulation.twin[h]
         face, side, t = g // 3, g % 3, 1 - last.t_out
-        axis = (last.axis + chart.quarter_turns[h]) % 4
+        axis = (last.axis + chart.period_jumps[h]) % 4
         tail, head = chart.corners[face, side], chart.corners[face, (side + 1) % 3]
         place = tail + t * (head - tail)
         return self._chords(last.trace, face, axis, side, t, place, last.end, False)

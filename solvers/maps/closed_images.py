@@ -42,7 +42,7 @@ class SeamlessMap:
     >>> map_ = seamless_map(IntegratedField(aligned, aligned.start))
     >>> map_.images[0].round(9).tolist()
     [[0.25, 0.0], [0.0, 0.25], [-0.25, -0.25]]
-    >>> map_.flipped.tolist()
+    >>> map_.inverted.tolist()
     []
     """
 
@@ -50,8 +50,8 @@ class SeamlessMap:
     distance: float
 
     @property
-    def flipped(self) -> IntArray:
-        """Triangles whose image is turned over or has no area."""
+    def inverted(self) -> IntArray:
+        """Triangles whose image is inverted or has no area."""
         first, last = self.images[:, 0], self.images[:, 2]
         area = last[:, 0] * first[:, 1] - last[:, 1] * first[:, 0]
         return np.flatnonzero(area <= 0)
@@ -170,7 +170,7 @@ def _to_halfedges(integrability: Integrability, edges: IntArray) -> csc_array:
     column = np.concatenate([number, number[inner]])
     # The twin runs the other way, and its cross is p quarter turns behind.
     turns = np.concatenate(
-        [np.zeros(len(edges), int), 2 + integrability.quarter_turns[edges[inner]]]
+        [np.zeros(len(edges), int), 2 + integrability.period_jumps[edges[inner]]]
     )
     cosine = np.array([1, 0, -1, 0])[turns % 4]
     sine = np.array([0, 1, 0, -1])[turns % 4]

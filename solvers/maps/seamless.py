@@ -3,7 +3,7 @@
 The unknown is one vector for each edge, in the frame of its triangle's cross; the other side sees
 it turned by the matching. The three vectors of a triangle close, edges of the boundary and of
 features have no component across, and the vectors stay as near as possible to what the field asks
-for. Triangles that come out turned over (at singularities) are asked for the image that their mean
+for. Triangles that come out inverted (at singularities) are asked for the image that their mean
 cross and sizes give, which is not, with more weight, until none is.
 """
 
@@ -23,7 +23,7 @@ LEAST_WEIGHT = 0.05
 """Edges opposite right or obtuse angles still count this much, in cotangents. Chosen."""
 
 STIFFER, ROUNDS, PATIENCE = 5.0, 6, 2
-"""Growth of the weight of triangles turned over, how often it grows at most, and how often in vain.
+"""Growth of the weight of inverted triangles, how often it grows at most, and how often in vain.
 
 Chosen.
 """
@@ -32,7 +32,7 @@ FEW = 5
 """Triangles that joining may turn over before they are mended. Chosen."""
 
 HOPELESS = 0.05
-"""Share of triangles turned over beyond which mending them is not tried. Chosen."""
+"""Share of inverted triangles beyond which mending them is not tried. Chosen."""
 
 
 def seamless_map(integrated: IntegratedField) -> SeamlessMap:
@@ -46,7 +46,7 @@ def seamless_map(integrated: IntegratedField) -> SeamlessMap:
     Returns
     -------
     SeamlessMap
-        The one with the fewest triangles turned over.
+        The one with the fewest inverted triangles.
 
     Examples
     --------
@@ -76,7 +76,7 @@ class SeamlessFit:
     Attributes
     ----------
     map : SeamlessMap
-        The one with the fewest triangles turned over.
+        The one with the fewest inverted triangles.
     joins : Joining
         The further conditions it satisfies.
     """
@@ -127,23 +127,23 @@ class SeamlessFit:
         Returns
         -------
         SeamlessFit or None
-            None if the map would be farther off, or have more triangles turned over.
+            None if the map would be farther off, or have more inverted triangles.
         """
         found = self._fit.joined(joining)
-        if found.distance > most or len(found.flipped) > len(self.map.flipped) + FEW:
+        if found.distance > most or len(found.inverted) > len(self.map.inverted) + FEW:
             return None
         other = copy(self)
         other._wanted, other._weight = self._wanted.copy(), self._weight.copy()
         other._stiffer = self._stiffer.copy()
         other.joins = joining
         other.map = other._mended(found)
-        return other if len(other.map.flipped) <= len(self.map.flipped) else None
+        return other if len(other.map.inverted) <= len(self.map.inverted) else None
 
     def _mended(self, found: SeamlessMap) -> SeamlessMap:
-        """Return the map with the fewest triangles turned over, making those stiffer."""
+        """Return the map with the fewest inverted triangles, making those stiffer."""
         best, in_vain = found, 0
         for _ in range(ROUNDS):
-            over = found.flipped
+            over = found.inverted
             hopeless = len(over) > HOPELESS * len(self._stiffer) or in_vain == PATIENCE
             if len(over) == 0 or hopeless:
                 break
@@ -155,7 +155,7 @@ class SeamlessFit:
             self.joins = self._fit.joining(self.joins.rows)
             found = self._fit.joined(self.joins)
             in_vain += 1
-            if len(found.flipped) < len(best.flipped):
+            if len(found.inverted) < len(best.inverted):
                 best, in_vain = found, 0
         return best
 
@@ -181,7 +181,7 @@ def _by_size(integrability: Integrability, x: FloatArray) -> FloatArray:
 
 
 def _wanted_by_means(integrability: Integrability, x: FloatArray) -> FloatArray:
-    """Return the same by each triangle's mean cross and sizes: a linear map, not turned over."""
+    """Return the same by each triangle's mean cross and sizes: a linear map, not inverted."""
     i = integrability
     a, s, delta = (values.mean(axis=1)[:, None] for values in i.local(x))
     return _over_sizes(i.triangulation, i.theta[:, None] + delta, a, s)

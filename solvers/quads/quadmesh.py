@@ -249,7 +249,7 @@ def scaled_jacobian(corners: FloatArray, outward: FloatArray) -> FloatArray:
     Returns
     -------
     (...) float array
-        1 for a rectangle, 0 or less for a quad that is folded, turned over or has a side without
+        1 for a rectangle, 0 or less for a quad that is folded, inverted or has a side without
         length.
 
     Notes

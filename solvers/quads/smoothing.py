@@ -199,7 +199,7 @@ def rectangles(corners: FloatArray, outward: FloatArray, sides: FloatArray) -> F
     corners : (q, 4, 3) float array
         Counter-clockwise seen from outside.
     outward : (q, 3) float array
-        Vectors that point to the outside; a quad that is turned over asks to be turned back.
+        Vectors that point to the outside; a quad that is inverted asks to be turned back.
     sides : (2, q) float array
         Lengths that the sides, from corner 0 to 1 and from 1 to 2, are drawn to.
 

@@ -59,7 +59,7 @@ def quad_facts(layout: QuadLayout, mesh: QuadMesh, solution: Solution) -> QuadFa
         "Scaled Jac.": f"min {worst:.2f}\nmean {float(quality.mean()):.3f}".replace("-", MINUS),
         "Patches": f"{grouped(layout.patches)}, {'' if layout.conforming else 'not '}conforming",
         "T-junctions": grouped(len(layout.t_junctions)),
-        "Flips": grouped(layout.flips) + (f", {layout.mended} mended" if layout.mended else ""),
+        "Flips": grouped(layout.inverted) + (f", {layout.mended} mended" if layout.mended else ""),
     }
     return QuadFacts(good, verdict, rows)
 

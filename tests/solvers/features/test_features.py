@@ -192,7 +192,7 @@ def test_a_cube_with_its_edges_marked_has_a_grid_on_each_side(
     aligned, integrated = solved(surface, features, found, refine=0)
     assert aligned.field.energy < 1e-10
     assert misalignment(integrated.field) < 1e-8
-    assert len(seamless_map(integrated).flipped) == 0
+    assert len(seamless_map(integrated).inverted) == 0
     # on each side u or v is along each of its edges: H is constant
     assert np.ptp(integrated.field.H) < 1e-9
 
@@ -304,7 +304,7 @@ def test_cad_files_come_out_aligned(name: str) -> None:
     assert misalignment(integrated.field) < 1e-6
     assert integrated.field.energy < 1e-10
     if name == "wingnut.obj":  # the plate has slivers across, too few triangles for a map
-        assert len(seamless_map(integrated).flipped) == 0
+        assert len(seamless_map(integrated).inverted) == 0
 
 
 def test_pointy_has_no_edge_as_sharp_and_is_aligned_with_its_boundary() -> None:

@@ -96,4 +96,4 @@ def test_a_layout_is_refused_with_the_verdicts_words_and_made_where_it_allows() 
     assert refused.value.what == judge(start.field).reason.rstrip(".")
     wide = Limits.on(aligned.solver.holonomy, float(np.radians(1.2)))
     made = run(quad_layout(start, judge(start.field, limits=wide)))
-    assert made.flips == 0
+    assert made.inverted == 0

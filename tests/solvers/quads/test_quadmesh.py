@@ -61,7 +61,7 @@ def broken(mesh: QuadMesh, how: str) -> QuadMesh:
     if how == "a quad missing":
         inner = ~mesh.on_boundary[quads].any(axis=1)
         return replace(mesh, quads=np.delete(quads, np.flatnonzero(inner)[0], axis=0))
-    if how == "a quad turned over":
+    if how == "an inverted quad":
         quads[0] = quads[0, ::-1]
     if how == "a quad twice":
         quads = np.concatenate([quads, quads[:1]])
@@ -78,7 +78,7 @@ def broken(mesh: QuadMesh, how: str) -> QuadMesh:
     "how",
     [
         "a quad missing",
-        "a quad turned over",
+        "an inverted quad",
         "a quad twice",
         "a vertex twice",
         "two vertices made one",
