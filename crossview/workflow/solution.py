@@ -16,6 +16,7 @@ from solvers.fields import (
     PreparedSurface,
     Verdict,
 )
+from solvers.frozen import freeze_arrays
 from solvers.layouts import Separatrices, field_separatrices
 from solvers.singularities import Singularity
 from solvers.surface import FloatArray, IntArray, Refinement, TriSurface
@@ -76,6 +77,9 @@ class Solution:
     verdict: Verdict
     growth: float | None = None
     inverted: int | None = None
+
+    def __post_init__(self) -> None:
+        freeze_arrays(self)
 
     @property
     def surface(self) -> TriSurface:

@@ -20,6 +20,7 @@ from solvers.fields.feature_alignment import align_with_features
 from solvers.fields.integrability import Integrability
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.fields.prepared import PreparedSurface
+from solvers.frozen import freeze_arrays
 from solvers.number_checks import whole_numbers
 from solvers.surface.triangulation import QUARTER, FloatArray, IntArray
 
@@ -151,6 +152,9 @@ class IntegratedField:
     x: FloatArray
     method: str = "aligned"
     convergence: Convergence = AS_IT_IS
+
+    def __post_init__(self) -> None:
+        freeze_arrays(self)
 
     @cached_property
     def field(self) -> CrossField:

@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from solvers.frozen import freeze_arrays
 from solvers.singularities.budget import Singularity
 from solvers.surface.triangulation import FloatArray
 from solvers.surface.trisurface import TriSurface
@@ -37,7 +38,7 @@ class Convergence:
 
 @dataclass(frozen=True, eq=False)
 class CrossField:
-    """A cross in each triangle of a surface.
+    """A cross in each triangle of a surface; its arrays cannot be written to.
 
     Parameters
     ----------
@@ -103,6 +104,9 @@ class CrossField:
     error_density: FloatArray = field(repr=False)
     convergence: Convergence
     feature_misalignment: FloatArray = field(default_factory=lambda: np.zeros(0))
+
+    def __post_init__(self) -> None:
+        freeze_arrays(self)
 
     @cached_property
     def H1(self) -> FloatArray:

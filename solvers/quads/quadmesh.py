@@ -10,6 +10,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from solvers.errors import CrossviewError
+from solvers.frozen import freeze_arrays
 from solvers.quads.projection import Projection
 from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface
@@ -72,6 +73,9 @@ class QuadMesh:
     barycentric: FloatArray
     fixed: BoolArray
     boundary_loop: IntArray
+
+    def __post_init__(self) -> None:
+        freeze_arrays(self)
 
     @property
     def n_vertices(self) -> int:

@@ -76,3 +76,8 @@ def test_stages_are_frozen(cube: Solution) -> None:
     for value, name in ((cube, "field"), (made, "arrangement")):
         with pytest.raises(dataclasses.FrozenInstanceError):
             setattr(value, name, None)
+    for array in (cube.field.theta, cube.field.H, cube.holonomy_defects):
+        before = array.copy()
+        with pytest.raises(ValueError, match="read-only"):
+            array += 1
+        np.testing.assert_array_equal(array, before)
