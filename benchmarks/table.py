@@ -22,12 +22,12 @@ from crossview.cases.model import Case
 from crossview.workflow.problem import Problem
 from solvers.fields.aligned import AlignedField, aligned_field
 from solvers.fields.alternating import alternate
-from solvers.fields.anisotropic import Iterate, MinimumNormNewton
+from solvers.fields.anisotropic import Descent, MinimumNormNewton
 from solvers.fields.prepared import prepare
 from solvers.primitives import BUILTIN
 from solvers.progress import run
 from solvers.singularities.budget import Singularity, default_corners
-from solvers.singularities.placing import far_points
+from solvers.singularities.far_points import far_points
 from solvers.surface.trisurface import TriSurface
 from tests.solvers.suite import separated
 
@@ -103,12 +103,12 @@ def row(entry: Entry) -> str:
     return "| " + " | ".join(cells) + " |"
 
 
-def newton_from_zero(aligned: AlignedField) -> Iterate:
+def newton_from_zero(aligned: AlignedField) -> Descent:
     newton = MinimumNormNewton(aligned.integrability)
     return run(newton.solve(np.zeros(aligned.integrability.assembly.n)))
 
 
-def timed(work: Callable[[], Iterate]) -> tuple[Iterate, float]:
+def timed(work: Callable[[], Descent]) -> tuple[Descent, float]:
     start = time.perf_counter()
     end = work()
     return end, time.perf_counter() - start

@@ -16,8 +16,8 @@ from typing import Any
 
 from crossview.cases.gallery import find_case
 from crossview.cases.model import Builtin, Case, CaseError, check_method
+from crossview.workflow import configurations
 from crossview.workflow import layout as layouts
-from crossview.workflow import placing
 from crossview.workflow import quads as meshes
 from crossview.workflow.pipeline import Pipeline
 from crossview.workflow.problem import Problem
@@ -163,7 +163,7 @@ def natural(
     >>> [s.valence for s in problem.singularities]
     [3, 3, 3, 3, 3, 3, 3, 3]
     """
-    computation = placing.natural(problem, method, seed, alignment=alignment, weight=weight)
+    computation = configurations.natural(problem, method, seed, alignment=alignment, weight=weight)
     return run(computation, progress)
 
 
@@ -194,7 +194,7 @@ def complete(problem: Problem, *, progress: Watch = None) -> Problem:
     >>> [s.valence for s in crossview.complete(crossview.Problem(surface)).singularities]
     [3, 3, 3, 3]
     """
-    return run(placing.complete(problem), progress)
+    return run(configurations.complete(problem), progress)
 
 
 def make_valid(problem: Problem, *, progress: Watch = None) -> Problem:
@@ -227,7 +227,7 @@ def make_valid(problem: Problem, *, progress: Watch = None) -> Problem:
     >>> crossview.solve(crossview.make_valid(Problem(surface, pair))).valid
     True
     """
-    return run(placing.make_valid(problem), progress)[0]
+    return run(configurations.make_valid(problem), progress)[0]
 
 
 def solve(problem: Problem, method: str | None = None, *, progress: Watch = None) -> Solution:

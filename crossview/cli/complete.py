@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from crossview.cli.options import Output, Quiet, SurfaceOptions
 from crossview.cli.terminal import say, watch
-from crossview.workflow import placing
+from crossview.workflow import configurations
 from crossview.workflow.problem import Problem
 
 
@@ -27,7 +27,7 @@ def complete(
     """
     found = chosen.case(case)
     problem = Problem.from_case(found)
-    completed = watch(placing.complete(problem), quiet)
+    completed = watch(configurations.complete(problem), quiet)
     completed.to_case(found.surface, found.title).save(output)
     if not quiet:
         added = completed.singularities[len(problem.singularities) :]

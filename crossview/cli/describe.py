@@ -10,7 +10,7 @@ import numpy as np
 from crossview.cases.model import Builtin, Case
 from crossview.io import read_surface
 from crossview.workflow.loading import load_surfaces, mended
-from crossview.workflow.problem import Problem, placed
+from crossview.workflow.problem import Problem, problems_on
 from solvers.errors import SurfaceError
 from solvers.repair import Repaired, merge_coincident
 from solvers.singularities import index_budget
@@ -38,12 +38,13 @@ def describe(case: Case) -> dict[str, Any]:
         found: list[SurfaceError] = []
     else:
         counts, found, pieces = _read(case, case.surface)
+    posed = problems_on(case, pieces) if pieces else ()
     return {
         "vertices": counts[0],
         "faces": counts[1],
         "problems": [_problem(error) for error in found],
         "notes": list(pieces[0].notes) if pieces else [],
-        "components": [_component(problem) for problem in placed(case, pieces)] if pieces else [],
+        "components": [_component(problem) for problem in posed],
     }
 
 

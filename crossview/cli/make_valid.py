@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from crossview.cli.options import Output, Quiet, SurfaceOptions
 from crossview.cli.terminal import say, watch
-from crossview.workflow import placing
+from crossview.workflow import configurations
 from crossview.workflow.problem import Problem
 
 
@@ -27,12 +27,12 @@ def make_valid(
     """
     found = chosen.case(case)
     problem = Problem.from_case(found)
-    valid, end = watch(placing.make_valid(problem), quiet)
+    valid, end = watch(configurations.make_valid(problem), quiet)
     valid.to_case(found.surface, found.title).save(output)
     if not quiet:
         before, after = (
             p.surface.positions([s.point for s in p.singularities]) for p in (problem, valid)
         )
         farthest = float(((after - before) ** 2).sum(axis=1).max(initial=0.0) ** 0.5)
-        layout = f", aimed at {end.layout}" if end.layout else ""
+        layout = f", aimed at {end.aim}" if end.aim else ""
         say(f"valid: singularities moved by up to {farthest:.3g}{layout}; wrote {output}")

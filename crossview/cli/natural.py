@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from crossview.cli.options import FeatureOptions, Output, Quiet
 from crossview.cli.terminal import say, watch
-from crossview.workflow import placing
+from crossview.workflow import configurations
 from crossview.workflow.problem import Problem
 from solvers.fields import CURVATURE_WEIGHT, NATURAL_ALIGNMENTS, NATURAL_METHODS
 
@@ -40,7 +40,7 @@ def natural(
     """
     found = chosen.case(surface)
     given = Problem.from_case(found)
-    computation = placing.natural(given, method, seed, alignment=alignment, weight=weight)
+    computation = configurations.natural(given, method, seed, alignment=alignment, weight=weight)
     problem = watch(computation, quiet)
     problem.to_case(found.surface, found.title).save(output)
     if not quiet:

@@ -35,17 +35,17 @@ from crossview.view.scene_view import (
     default_layers,
     layers_named,
 )
-from crossview.view.values import Curves, Elements, GuideLine, Marker, Quads
+from crossview.view.values import Elements, GuideLine, Marker, Polylines, Quads
 
 __all__ = [
     "LAYERS",
     "Camera",
-    "Curves",
     "Elements",
     "GuideLine",
     "LayerKind",
     "LayerSettings",
     "Marker",
+    "Polylines",
     "Quads",
     "Scene",
     "SceneView",

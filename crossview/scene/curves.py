@@ -1,4 +1,4 @@
-"""Curves on the surface: its boundary, features, the cut graph, a loop to point out."""
+"""Polylines on the surface: its boundary, features, the cut graph, a loop to point out."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ from crossview.view.colors import CUT_HALO, SEPARATRIX, bytes_of, valence_color
 from crossview.view.geometry import Triangles
 from crossview.view.scene_view import SceneView
 from crossview.view.style import TOWARDS, WIDTH
-from crossview.view.values import Curves
+from crossview.view.values import Polylines
 
 
 class SeparatricesLayer:
@@ -45,7 +45,7 @@ class SeparatricesLayer:
         self._halo.remove()
         self._lines.remove()
 
-    def _replace(self, curves: Curves) -> None:
+    def _replace(self, curves: Polylines) -> None:
         segments = curves.segments
         for actor in (self._halo, self._lines):
             actor.replace(curves.points, lines=segments)

@@ -76,7 +76,7 @@ def move_to_validity(
         return Moving(step.stage, step.fraction, step.singularities, step.defects, field)
 
     moved = yield from relayed(computation, show)
-    aimed = f", aimed at {moved.layout}" if moved.layout else ""
+    aimed = f", aimed at {moved.aim}" if moved.aim else ""
     return ReplaceSingularities(moved.singularities, f"make valid{aimed}")
 
 

@@ -10,9 +10,9 @@ from crossview.session.commands import AddSingularities, Command, ReplaceSingula
 from crossview.session.document import Document
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.progress import Progress
+from solvers.singularities.far_points import far_points
 from solvers.singularities.pairs import merged, pair_at, split
-from solvers.singularities.placing import far_points
-from solvers.singularities.symmetry import mirrored, turned
+from solvers.singularities.symmetry import mirrored, rotated
 from solvers.surface.points import SurfacePoint
 from solvers.validity.completion import missing_singularities
 
@@ -50,7 +50,7 @@ def mirror(document: Document, axis: int) -> Command:
 
 def rotate(document: Document, axis: int) -> Command:
     """Turn the configuration by 90 degrees about x (0), y or z."""
-    made = turned(document.surface, document.singularities, axis, np.pi / 2)
+    made = rotated(document.surface, document.singularities, axis, np.pi / 2)
     return ReplaceSingularities(made, f"rotate about {'xyz'[axis]}")
 
 

@@ -12,7 +12,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from crossview.view.values import Curves, FloatArray, Quads
+from crossview.view.values import FloatArray, Polylines, Quads
 from solvers.layouts import QuadLayout, Separatrices
 from solvers.quads import QuadMesh
 
@@ -34,9 +34,9 @@ def _once(draw: Callable[[Source], Drawing]) -> Callable[[Source], Drawing]:
 
 
 @_once
-def curves_of(separatrices: Separatrices) -> Curves:
+def curves_of(separatrices: Separatrices) -> Polylines:
     """Return separatrices as curves to draw."""
-    return Curves(separatrices.points, separatrices.offsets, separatrices.valences)
+    return Polylines(separatrices.points, separatrices.offsets, separatrices.valences)
 
 
 @_once

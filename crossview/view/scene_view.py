@@ -8,12 +8,12 @@ from types import MappingProxyType
 from typing import Any, Literal
 
 from crossview.view.values import (
-    Curves,
     Elements,
     FloatArray,
     GuideLine,
     IntArray,
     Marker,
+    Polylines,
     Quads,
 )
 from solvers.errors import CrossviewError
@@ -161,7 +161,7 @@ class SceneView:
         Where the singularity under the mouse may go.
     problem : Elements, optional
         Offending elements to point out.
-    separatrices : Curves, optional
+    separatrices : Polylines, optional
     t_junctions : (k, 3) float, optional
         Where a limit cycle is cut: a "T" each.
     misaligned : (k, 3) float, optional
@@ -194,7 +194,7 @@ class SceneView:
     loop_color: str = ""
     guide: tuple[GuideLine, ...] = ()
     problem: Elements | None = None
-    separatrices: Curves | None = None
+    separatrices: Polylines | None = None
     t_junctions: FloatArray | None = None
     misaligned: FloatArray | None = None
     layout: Quads | None = None

@@ -32,7 +32,7 @@ class Elements:
 
 
 @dataclass(frozen=True, eq=False)
-class Curves:
+class Polylines:
     """Polylines on the surface.
 
     Parameters

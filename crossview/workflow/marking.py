@@ -57,7 +57,7 @@ class Marking:
         return PlacedFeatures(self.dihedral_degrees, curves, without)
 
 
-class Drawing:
+class EdgeTracer:
     """Draws polylines on a surface along its edges."""
 
     def __init__(self, surface: TriSurface) -> None:

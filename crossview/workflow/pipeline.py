@@ -27,7 +27,7 @@ from solvers.fields import (
     judge,
     prepare,
 )
-from solvers.layouts.turning import joined_field, joining
+from solvers.layouts.gauge import in_joining_gauge, joined_field
 from solvers.progress import Progress, between
 from solvers.singularities import require_budget
 from solvers.surface import FloatArray
@@ -77,7 +77,7 @@ class Pipeline:
         if isotropic:
             yield Progress("solving", 0.6)
             with _timed(seconds, "solve"):
-                solver = joining(solver, prepared.singularities)
+                solver = in_joining_gauge(solver, prepared.singularities)
                 field = solver.solve(prepared.singularities)
             yield Progress("checking the holonomy", 0.8)
             solution = _solution(problem, prepared, solver, field, seconds)

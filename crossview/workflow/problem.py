@@ -21,7 +21,7 @@ from crossview.cases.model import (
 )
 from crossview.cases.parts import Polyline
 from crossview.workflow.loading import load_surfaces
-from crossview.workflow.marking import Drawing, Marking
+from crossview.workflow.marking import EdgeTracer, Marking
 from solvers.errors import CrossviewError
 from solvers.features import Features
 from solvers.repair import Repaired
@@ -196,10 +196,10 @@ def problems_of(case: Case) -> tuple[Problem, ...]:
     CrossviewError
         As `Problem.from_case`.
     """
-    return placed(case, load_surfaces(case))
+    return problems_on(case, load_surfaces(case))
 
 
-def placed(case: Case, pieces: Sequence[Repaired]) -> tuple[Problem, ...]:
+def problems_on(case: Case, pieces: Sequence[Repaired]) -> tuple[Problem, ...]:
     """A case on each of the surfaces loaded for it; positions belong to the nearest surface.
 
     Raises
@@ -260,7 +260,7 @@ def _corners(case: Case, surfaces: Sequence[TriSurface]) -> Sequence[dict[int, i
 def _markings(case: Case, surfaces: Sequence[TriSurface]) -> Sequence[Marking]:
     """The features of a case on each surface: a curve belongs to that nearest to its points."""
     given = case.features
-    drawings: dict[int, Drawing] = {}
+    drawings: dict[int, EdgeTracer] = {}
     found: list[dict[str, frozenset[int]]] = [{} for _ in surfaces]
     for key, name, lines in (
         ("marked", "curve", given.curves),
@@ -270,7 +270,7 @@ def _markings(case: Case, surfaces: Sequence[TriSurface]) -> Sequence[Marking]:
             gaps = [_curve_gap(surface, line) for surface in surfaces]
             nearest = _within_reach(gaps, f"{name} #{number}", line[0])
             if nearest not in drawings:
-                drawings[nearest] = Drawing(surfaces[nearest])
+                drawings[nearest] = EdgeTracer(surfaces[nearest])
             before = found[nearest].get(key, frozenset())
             found[nearest][key] = before | drawings[nearest].edges([line])
     return [Marking(given.dihedral_degrees, **edges) for edges in found]

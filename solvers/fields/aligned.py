@@ -49,7 +49,7 @@ class AlignedField:
         With the aligned field as its initial field.
     turns : tuple of int
         Quarter turns over each condition's path, besides those nearest to the isotropic field.
-    turned : (m, 3) float array, optional
+    turning : (m, 3) float array, optional
         What aligns it with features, or by how much the solver turns all crosses; None for
         neither.
 
@@ -76,7 +76,7 @@ class AlignedField:
     correction: FloatArray
     integrability: Integrability
     turns: tuple[int, ...]
-    turned: FloatArray | None = None
+    turning: FloatArray | None = None
 
     def partly(self, fraction: float) -> Integrability:
         """Return the problem around the field with only a fraction of the correction.
@@ -88,8 +88,8 @@ class AlignedField:
         """
         i = self.integrability
         conjugate = self.isotropic.H[i.triangulation.faces] + fraction * self.correction
-        turned = None if self.turned is None else fraction * self.turned
-        return Integrability(i.discretization, conjugate, i.period_jumps, i.features, turned)
+        turning = None if self.turning is None else fraction * self.turning
+        return Integrability(i.discretization, conjugate, i.period_jumps, i.features, turning)
 
     @cached_property
     def forced_corners(self) -> IntArray:
@@ -241,18 +241,18 @@ def aligned_field(
                 "turns",
                 "give one whole number for each condition",
             )
-    if like is not None and solver.may_turn:
-        solver = solver.turned(field.turn_to(like))
+    if like is not None and solver.gauge_free:
+        solver = solver.in_gauge(field.turn_to(like))
         field = solver.solve(singularities)
-    conjugate, turned = field.H[solver.surface.faces], None
+    conjugate, turning = field.H[solver.surface.faces], None
     if len(d.features):
         found = align_with_features(solver.holonomy, conjugate, field.defects, turns)
-        turns, turned = found.turns.tolist(), found.turned
-    elif solver.turn:
-        turned = np.full(conjugate.shape, solver.turn)
+        turns, turning = found.turns.tolist(), found.turning
+    elif solver.gauge:
+        turning = np.full(conjugate.shape, solver.gauge)
     chosen = tuple(turns or [0] * len(field.defects))
     correction = solver.holonomy.harmonic_correction(QUARTER * np.array(chosen) - field.defects)
     integrability = Integrability(
-        d, conjugate + correction, features=d.feature_halfedges, turned=turned
+        d, conjugate + correction, features=d.feature_halfedges, turning=turning
     )
-    return AlignedField(prepared, solver, field, correction, integrability, chosen, turned)
+    return AlignedField(prepared, solver, field, correction, integrability, chosen, turning)

@@ -13,7 +13,7 @@ import numpy as np
 
 from solvers.algebra.factorization import Analysis, Factorization
 from solvers.fields.aligned import AlignedField
-from solvers.fields.anisotropic import Iterate, NewtonStep, roughness
+from solvers.fields.anisotropic import Descent, NewtonStep, roughness
 from solvers.fields.integrability import Integrability, Residual
 from solvers.number_checks import real_number, whole_number
 from solvers.progress import Progress
@@ -25,7 +25,7 @@ LEAST_GAIN = 1e-4
 
 def alternate(
     aligned: AlignedField, weight: float = 1.0, outer: int = 50, inner: int = 50
-) -> Generator[Progress, None, Iterate]:
+) -> Generator[Progress, None, Descent]:
     """Minimise E over (H1, H2) and over theta in turn (paper, Algorithm 3).
 
     Parameters
@@ -39,7 +39,7 @@ def alternate(
 
     Returns
     -------
-    Iterate
+    Descent
         With E after each inner iteration; converged if E fell below 1e-10.
     """
     weight = real_number("the proximal weight", weight, above=0)
@@ -58,7 +58,7 @@ def alternate(
         x = yield from _descend(scales, x, history, inner)
         if history[-1] >= before * (1 - LEAST_GAIN):
             break
-    return Iterate(x, tuple(history), history[-1] <= 1e-10)
+    return Descent(x, tuple(history), history[-1] <= 1e-10)
 
 
 def _descend(

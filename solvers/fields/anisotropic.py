@@ -64,7 +64,7 @@ class NewtonStep(Progress):
 
 
 @dataclass(frozen=True, eq=False)
-class Iterate:
+class Descent:
     """Where a solver for E = 0 ended.
 
     Parameters
@@ -98,7 +98,7 @@ class MinimumNormNewton:
         self._metric = integrability.assembly.packed(step_metric(integrability))
         self._analysis = Analysis(accelerated=accelerated, lower=True)
 
-    def solve(self, x: FloatArray, limit: int = 30) -> Generator[Progress, None, Iterate]:
+    def solve(self, x: FloatArray, limit: int = 30) -> Generator[Progress, None, Descent]:
         """Newton steps until E is nothing but rounding.
 
         Parameters
@@ -120,11 +120,11 @@ class MinimumNormNewton:
             history.append(r.energy)
             yield NewtonStep("Newton", min(1.0, len(history) / 8), r.energy, x)
         # A last step may fail to lower E only because of rounding.
-        return Iterate(x, tuple(history), r.energy <= 10 * CONVERGED)
+        return Descent(x, tuple(history), r.energy <= 10 * CONVERGED)
 
     def slide(
         self, x: FloatArray, target: FloatArray, limit: int = 8
-    ) -> Generator[Progress, None, Iterate]:
+    ) -> Generator[Progress, None, Descent]:
         """Move along E = 0 to the smoothest scales: min of sum |grad H_i - grad target_i|^2.
 
         Parameters
@@ -138,7 +138,7 @@ class MinimumNormNewton:
 
         Returns
         -------
-        Iterate
+        Descent
             A point with E = 0.
         """
         assembly = self.integrability.assembly
@@ -160,7 +160,7 @@ class MinimumNormNewton:
             if rough > (1 - LEAST_GAIN) * before:
                 break
         end = yield from self.solve(x)
-        return Iterate(end.x, (*history[:-1], *end.history), end.converged)
+        return Descent(end.x, (*history[:-1], *end.history), end.converged)
 
     def _factor(self, metric: FloatArray, r: Residual) -> Factorization:
         assembly = self.integrability.assembly

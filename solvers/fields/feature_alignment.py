@@ -39,13 +39,13 @@ class FeatureTurn:
     ----------
     turns : (c,) int array
         Quarter turns to add over each holonomy condition's path.
-    turned : (m, 3) float array
+    turning : (m, 3) float array
         By how much to turn the field, so aligned with the boundaries, at the midpoint of each
         halfedge; single-valued, 0 on the boundary; radians.
     """
 
     turns: IntArray
-    turned: FloatArray
+    turning: FloatArray
 
 
 def align_with_features(
@@ -86,8 +86,8 @@ def align_with_features(
         energy[-len(defects) :, 0] -= QUARTER * harmonic @ defects
     integers = nearest_integers(energy[1:, 1:], energy[1:, 0])
     chosen = given if turns is not None else integers[by_curve.shape[1] :]
-    turned = filling.everywhere(wanted + changes @ integers)
-    return FeatureTurn(chosen.astype(np.int64), turned)
+    turning = filling.everywhere(wanted + changes @ integers)
+    return FeatureTurn(chosen.astype(np.int64), turning)
 
 
 def nearest_integers(matrix: FloatArray, linear: FloatArray) -> FloatArray:

@@ -89,7 +89,7 @@ class Integrability:
         As the attribute; by default the nearest to the initial field's turns over each edge.
     features : (k,) int array, optional
         As the attribute; by default none.
-    turned : (m, 3) float array, optional
+    turning : (m, 3) float array, optional
         What to turn that conjugate by at the midpoint of each halfedge (Crouzeix-Raviart,
         single-valued), radians; by default nothing.
 
@@ -116,7 +116,7 @@ class Integrability:
         conjugate: FloatArray,
         period_jumps: IntArray | None = None,
         features: IntArray = NO_FEATURES,
-        turned: FloatArray | None = None,
+        turning: FloatArray | None = None,
     ) -> None:
         self.discretization = discretization
         self.features = features
@@ -125,12 +125,12 @@ class Integrability:
         self.theta = discretization.walk(self.offsets)
         gradient = t.gradients(conjugate)
         self._turning = np.stack([-gradient[:, 1], gradient[:, 0]], axis=1)
-        if turned is not None:
-            mean = turned.mean(axis=1)
+        if turning is not None:
+            mean = turning.mean(axis=1)
             self.theta = self.theta + mean
-            self.offsets = self.offsets + turned - mean[:, None]
+            self.offsets = self.offsets + turning - mean[:, None]
             # The function of halfedge i is 1 - 2 times the hat function of corner i + 2.
-            self._turning += t.gradients(-2.0 * turned[:, [1, 2, 0]])
+            self._turning += t.gradients(-2.0 * turning[:, [1, 2, 0]])
         midpoint = np.repeat(self.theta, 3) + self.offsets.reshape(-1)
         across = np.where(t.twin >= 0, midpoint[t.twin] - t.transport, midpoint)
         nearest = np.rint((midpoint - across) / QUARTER).astype(np.int64)

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from solvers.fields.aligned import AlignedField, IntegratedField
 from solvers.fields.alternating import alternate
-from solvers.fields.anisotropic import Iterate, MinimumNormNewton, NewtonStep
+from solvers.fields.anisotropic import Descent, MinimumNormNewton, NewtonStep
 from solvers.fields.crossfield import Convergence, CrossField
 from solvers.fields.sizes import size_map
 from solvers.fields.verdict import NEARLY_INTEGRABLE
@@ -20,7 +20,7 @@ from solvers.surface.triangulation import FloatArray
 HOMOTOPY_STAGES = (2, 4, 8)
 """Parts that the way from the isotropic to the aligned field is cut into, try after try. Chosen."""
 
-Iteration = Generator[Progress, None, Iterate]
+Iteration = Generator[Progress, None, Descent]
 
 
 @dataclass(frozen=True)
@@ -165,7 +165,7 @@ def _solve(aligned: AlignedField, newton: MinimumNormNewton) -> Iteration:
     for stages in HOMOTOPY_STAGES:
         last = yield from by_stages(aligned, newton, stages)
         if last.converged:
-            return Iterate(last.x, direct.history + last.history, True)
+            return Descent(last.x, direct.history + last.history, True)
     return direct
 
 

@@ -52,8 +52,8 @@ class IsotropicSolver:
 
     Attributes
     ----------
-    turn : float
-        Angle by which all crosses are turned, radians; see `turned`.
+    gauge : float
+        Angle by which all crosses are turned, radians; see `in_gauge`.
 
     Raises
     ------
@@ -99,7 +99,7 @@ class IsotropicSolver:
         # H is unique up to a constant: the first vertex is pinned, the mean subtracted after.
         self.factorization = factorized(matrix[1:, 1:])
         self._mass = lumped_mass(self.discretization.triangulation)
-        self.turn = 0.0
+        self.gauge = 0.0
 
     @cached_property
     def holonomy(self) -> Holonomy:
@@ -107,11 +107,11 @@ class IsotropicSolver:
         return Holonomy(self.discretization, self.factorization, self.corners)
 
     @property
-    def may_turn(self) -> bool:
+    def gauge_free(self) -> bool:
         """Whether neither a boundary nor a feature fixes the direction of the crosses."""
         return not self.surface.boundary_loops and not len(self.discretization.features)
 
-    def turned(self, angle: float) -> IsotropicSolver:
+    def in_gauge(self, angle: float) -> IsotropicSolver:
         """Return the same solver with all crosses of its fields turned by an angle.
 
         Parameters
@@ -124,10 +124,10 @@ class IsotropicSolver:
         CrossviewError
             If a boundary or a feature fixes their direction.
         """
-        if not self.may_turn:
+        if not self.gauge_free:
             raise CrossviewError("a boundary or a feature fixes the direction of the crosses")
         other = copy(self)
-        other.turn = self.turn + real_number("the angle", angle)
+        other.gauge = self.gauge + real_number("the angle", angle)
         return other
 
     def solve(self, singularities: Sequence[Singularity]) -> CrossField:
@@ -157,7 +157,7 @@ class IsotropicSolver:
         h -= self._mass @ h / self._mass.sum()
         offsets = self._offsets(h, singularities, faces, weights)
         d = self.discretization
-        theta = d.walk(offsets) + self.turn
+        theta = d.walk(offsets) + self.gauge
         if len(d.features) and not self.surface.boundary_loops:
             theta += d.turn_to_features(theta, offsets)
         defects = d.defects(theta, offsets)

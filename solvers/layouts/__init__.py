@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from solvers.layouts.errors import LayoutError
+from solvers.layouts.gauge import joined_field
 from solvers.layouts.layout import QuadLayout, quad_layout
 from solvers.layouts.patches import PatchMesh
 from solvers.layouts.separatrices import Separatrices, field_separatrices
 from solvers.layouts.tmesh import TMesh
-from solvers.layouts.turning import joined_field
 
 __all__ = [
     "LayoutError",

@@ -9,10 +9,10 @@ from solvers.singularities.budget import (
     index_budget,
     require_budget,
 )
+from solvers.singularities.far_points import far_points
 from solvers.singularities.pairs import merged, pair_at, split
-from solvers.singularities.placing import far_points
 from solvers.singularities.remedies import AddMissing, ChangeOne, RemoveOne
-from solvers.singularities.symmetry import mirrored, turned
+from solvers.singularities.symmetry import mirrored, rotated
 
 __all__ = [
     "AddMissing",
@@ -27,6 +27,6 @@ __all__ = [
     "mirrored",
     "pair_at",
     "require_budget",
+    "rotated",
     "split",
-    "turned",
 ]

@@ -64,7 +64,7 @@ def mirrored(
     return _carried(surface, singularities, matrix, f"mirrored across {AXES[axis]}")
 
 
-def turned(
+def rotated(
     surface: TriSurface, singularities: Sequence[Singularity], axis: int, angle: float
 ) -> tuple[Singularity, ...]:
     """Return the configuration turned on the same surface.
@@ -97,10 +97,10 @@ def turned(
     --------
     >>> import numpy as np
     >>> from solvers.primitives import disk
-    >>> from solvers.singularities import Singularity, turned
+    >>> from solvers.singularities import Singularity, rotated
     >>> surface = disk(edge_length=0.1)
     >>> one = Singularity(surface.closest_point([0.3, 0.0, 0.0]), 5)
-    >>> (image,) = turned(surface, [one], axis=2, angle=np.pi / 2)
+    >>> (image,) = rotated(surface, [one], axis=2, angle=np.pi / 2)
     >>> surface.position(image.point).round(6).tolist()
     [0.0, 0.3, 0.0]
     """

@@ -20,8 +20,8 @@ from solvers.fields.isotropic import IsotropicSolver
 from solvers.progress import Progress, relayed
 from solvers.remedies import ANISOTROPIC, Remedy
 from solvers.singularities.budget import Singularity, require_budget
+from solvers.singularities.far_points import far_points
 from solvers.singularities.pairs import pair_at
-from solvers.singularities.placing import far_points
 from solvers.surface.triangulation import QUARTER, FloatArray
 from solvers.surface.trisurface import TriSurface
 from solvers.validity.search import Blocked, Moved, Obstacle, Search
@@ -203,7 +203,7 @@ class _Attempt:
             try:
                 moved = yield from search.approach(start, turns)
                 end = yield from search.verify(moved, turns, self._corners, self._levels)
-                return replace(end, layout=_in_words(turns, self._guide.conditions))
+                return replace(end, aim=_in_words(turns, self._guide.conditions))
             except Blocked as blocked:
                 first = first or blocked
                 if first.why is Obstacle.TOO_FEW:
@@ -217,7 +217,7 @@ class _Attempt:
         if why not in (None, Obstacle.TOO_FEW):
             farther = yield from self._tried("trying other layouts", start, self._far(start))
             if farther is not None:
-                words = f"aim at {farther.layout}"
+                words = f"aim at {farther.aim}"
                 found.append(PlaceAnew(words, farther.singularities, "another layout"))
         sites = yield from far_points(self._surface, start, SITES)
         for site in sites:

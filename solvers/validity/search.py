@@ -66,7 +66,7 @@ class Moved(Progress):
         Their holonomy defects, radians.
     turns : tuple of int
         The quarter turns that each condition is taken to: 0 the nearest, else another layout.
-    layout : str
+    aim : str
         The same in words at the end of the way; empty: the nearest.
 
     Examples
@@ -89,7 +89,7 @@ class Moved(Progress):
     singularities: tuple[Singularity, ...]
     defects: FloatArray
     turns: tuple[int, ...]
-    layout: str = ""
+    aim: str = ""
 
 
 class Blocked(Exception):

@@ -26,7 +26,7 @@ from solvers.progress import run
 from solvers.repair.soup import repair
 from solvers.singularities.budget import Singularity
 from solvers.singularities.pairs import merged, pair_at, split
-from solvers.singularities.symmetry import mirrored, turned
+from solvers.singularities.symmetry import mirrored, rotated
 from solvers.surface.points import SurfacePoint
 from solvers.surface.refinement import refine_at
 from solvers.surface.trisurface import TriSurface
@@ -140,7 +140,7 @@ REFUSED: dict[str, Callable[[], object]] = {
     "a singularity beyond the last": lambda: split(SQUARE, [Singularity(MIDDLE, 8)], 1),
     "one before the first": lambda: merged(SQUARE, [Singularity(MIDDLE, 8)], -1, 0),
     "a fourth axis": lambda: mirrored(SQUARE, [], 3),
-    "a turn that is none": lambda: turned(SQUARE, [], 0, np.inf),
+    "a turn that is none": lambda: rotated(SQUARE, [], 0, np.inf),
     "a negative weight of curvature": lambda: run(natural_singularities(SQUARE, weight=-1.0)),
     "half a seed": lambda: run(natural_singularities(SQUARE, seed=0.5)),  # type: ignore[arg-type]
     "no proximal weight": lambda: run(alternate(None, weight=0.0)),  # type: ignore[arg-type]

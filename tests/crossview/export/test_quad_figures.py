@@ -8,7 +8,7 @@ import pytest
 from PIL import Image
 
 from crossview.export.figures import render_view
-from crossview.scene import Curves, Quads, SceneView, layers_named
+from crossview.scene import Polylines, Quads, SceneView, layers_named
 from crossview.view.colors import MARK_WARNING, QUAD_EDGE, THEMES, valence_color
 from solvers.primitives import sphere
 
@@ -31,7 +31,7 @@ def view() -> SceneView:
     return SceneView(
         BALL.vertices,
         BALL.faces,
-        separatrices=Curves(1.002 * points, np.array([0, 60, 120]), np.array([3, 5])),
+        separatrices=Polylines(1.002 * points, np.array([0, 60, 120]), np.array([3, 5])),
         t_junctions=poles[1:],
         misaligned=poles,
         quads=cube,

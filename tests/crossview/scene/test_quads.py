@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from crossview.scene import Curves, Marker, Quads, SceneView, layers_named
+from crossview.scene import Marker, Polylines, Quads, SceneView, layers_named
 from crossview.view.colors import (
     MARK_WARNING,
     PATCHES,
@@ -51,9 +51,9 @@ def view(names: Sequence[str], **values: Any) -> SceneView:
     return SceneView(PLATE.vertices, PLATE.faces, layers=layers_named(names), **values)
 
 
-def curves(valences: Sequence[int] = (3, 5)) -> Curves:
+def curves(valences: Sequence[int] = (3, 5)) -> Polylines:
     ends = np.array([[-0.4, 0.2, 0.0], [0.4, 0.2, 0.0], [-0.4, -0.2, 0.0], [0.4, -0.2, 0.0]])
-    return Curves(ends, np.array([0, 2, 4]), np.array(valences))
+    return Polylines(ends, np.array([0, 2, 4]), np.array(valences))
 
 
 class TestSeparatrices:
@@ -70,7 +70,7 @@ class TestSeparatrices:
     ) -> None:
         stage.scene.show(view(["separatrices"], separatrices=curves()))
         props = stage.props()
-        shorter = Curves(np.array([[0.0, 0, 0], [0.3, 0.3, 0]]), np.array([0, 2]), np.array([6]))
+        shorter = Polylines(np.array([[0.0, 0, 0], [0.3, 0.3, 0]]), np.array([0, 2]), np.array([6]))
         last = view(["surface", "separatrices"], separatrices=shorter)
         stage.scene.show(last)
         stage.scene.fit()
@@ -81,7 +81,7 @@ class TestSeparatrices:
         assert stage.props() == props
 
     def test_a_curve_of_one_point_or_none_is_no_line(self) -> None:
-        made = Curves(np.zeros((4, 3)), np.array([0, 1, 1, 4]), np.array([3, 3, 5]))
+        made = Polylines(np.zeros((4, 3)), np.array([0, 1, 1, 4]), np.array([3, 3, 5]))
         assert made.segments.tolist() == [[1, 2], [2, 3]]
         assert made.segment_valences.tolist() == [5, 5]
 

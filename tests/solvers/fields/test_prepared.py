@@ -87,7 +87,7 @@ def test_where_nothing_fixes_the_crosses_they_turn_to_those_of_another_field() -
     corners = np.stack(np.meshgrid(*[[-1, 1]] * 3), axis=-1).reshape(-1, 3)
     configuration = [Singularity(surface.closest_point(c), 3) for c in corners / np.sqrt(3)]
     prepared = prepare(surface, configuration, refine=1)
-    like = prepared.operators.delaunay.turned(0.3).solve(prepared.singularities)
+    like = prepared.operators.delaunay.in_gauge(0.3).solve(prepared.singularities)
     aligned = aligned_field(prepared, like=like)
     assert abs(aligned.isotropic.turn_to(like)) < 1e-9
     assert abs(aligned_field(prepared).isotropic.turn_to(like)) > 0.05

@@ -12,8 +12,8 @@ from solvers.features.edges import Features
 from solvers.fields.aligned import IntegratedField
 from solvers.fields.integrable import anisotropic_field
 from solvers.fields.prepared import prepare
+from solvers.layouts.gauge import joined_field
 from solvers.layouts.layout import QuadLayout, quad_layout
-from solvers.layouts.turning import joined_field
 from solvers.primitives import BUILTIN
 from solvers.progress import run
 from solvers.singularities.budget import Singularity

@@ -12,12 +12,12 @@ from solvers.layouts.arrangement import arrange
 from solvers.layouts.connections import beside, ending
 from solvers.layouts.crossings import crossings
 from solvers.layouts.errors import LayoutError
+from solvers.layouts.gauge import joining_gauge
 from solvers.layouts.joined_map import JoinedMap
 from solvers.layouts.layout import QuadLayout, quad_layout
 from solvers.layouts.nodes import singular_nodes, starts_at
 from solvers.layouts.stops import stops
 from solvers.layouts.tracing import NODE, Traces, trace
-from solvers.layouts.turning import joining_turn
 from solvers.maps.seamless import seamless_map
 from solvers.primitives import BUILTIN
 from solvers.progress import run
@@ -173,11 +173,11 @@ def test_crosses_that_nothing_fixes_turn_to_where_separatrices_join(
     name: str, angle: float
 ) -> None:
     surface = BUILTIN[name]()
-    solver = IsotropicSolver(surface, delaunay=False).turned(angle)
+    solver = IsotropicSolver(surface, delaunay=False).in_gauge(angle)
     singularities = [
         Singularity(surface.point_at_vertex(_nearest(surface, p)), 3) for p in cube_corners()
     ]
-    turned = solver.turned(joining_turn(solver.solve(singularities)))
+    turned = solver.in_gauge(joining_gauge(solver.solve(singularities)))
     field = turned.solve(singularities)
     # on the great circle between two corners of the cube a branch runs along it
     one, other = cube_corners()[:2]
@@ -190,7 +190,7 @@ def test_crosses_that_nothing_fixes_turn_to_where_separatrices_join(
 def test_a_boundary_holds_the_crosses() -> None:
     solver = IsotropicSolver(BUILTIN["disk"](edge_length=0.2))
     with pytest.raises(CrossviewError, match="boundary"):
-        solver.turned(0.1)
+        solver.in_gauge(0.1)
 
 
 def _nearest(surface: TriSurface, place: np.ndarray) -> int:

@@ -7,8 +7,8 @@ import pytest
 
 from solvers.fields.aligned import IntegratedField
 from solvers.fields.prepared import prepare
+from solvers.layouts.gauge import joined_field
 from solvers.layouts.layout import QuadLayout, quad_layout
-from solvers.layouts.turning import joined_field
 from solvers.primitives import cube_sphere, square
 from solvers.progress import run
 from solvers.singularities.budget import Singularity

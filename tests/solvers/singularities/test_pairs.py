@@ -10,7 +10,7 @@ from solvers.errors import SingularityError
 from solvers.primitives import BUILTIN
 from solvers.singularities.budget import Singularity
 from solvers.singularities.pairs import merged, pair_at, split
-from solvers.singularities.symmetry import mirrored, turned
+from solvers.singularities.symmetry import mirrored, rotated
 from solvers.surface.trisurface import TriSurface
 from tests.solvers.suite import SURFACES
 
@@ -111,12 +111,12 @@ def test_mirror_images_and_turns_on_a_square() -> None:
     start = at(SQUARE, ([0.1, 0.2, 0], 3), ([-0.3, 0.05, 0], 5))
     x = where(SQUARE, start)
     np.testing.assert_allclose(where(SQUARE, mirrored(SQUARE, start, 0)), x * [-1, 1, 1], atol=1e-9)
-    quarter = turned(SQUARE, start, 2, np.pi / 2)
+    quarter = rotated(SQUARE, start, 2, np.pi / 2)
     np.testing.assert_allclose(where(SQUARE, quarter), x[:, [1, 0, 2]] * [-1, 1, 1], atol=1e-9)
     assert [s.valence for s in quarter] == [3, 5]
     full: Sequence[Singularity] = start
     for _ in range(4):
-        full = turned(SQUARE, full, 2, np.pi / 2)
+        full = rotated(SQUARE, full, 2, np.pi / 2)
     np.testing.assert_allclose(where(SQUARE, full), x, atol=1e-9)
 
 
@@ -138,7 +138,7 @@ def test_a_surface_that_is_not_symmetrical_and_a_lock_are_refused() -> None:
     corner = shape.vertices[np.argmax(shape.vertices @ [1, -0.5, 0])]
     inside = shape.closest_point(0.9 * corner + 0.1 * shape.vertices.mean(axis=0))
     with pytest.raises(SingularityError, match=r"not symmetrical enough.*away from it"):
-        turned(shape, [Singularity(inside, 3)], 2, np.pi / 3)
+        rotated(shape, [Singularity(inside, 3)], 2, np.pi / 3)
     locked = [replace(s, locked=True) for s in at(SQUARE, ([0.1, 0.2, 0], 3))]
     with pytest.raises(SingularityError, match=r"#1 is locked"):
         mirrored(SQUARE, locked, 0)

@@ -13,7 +13,7 @@ from solvers.primitives import BUILTIN
 from solvers.progress import Progress, run
 from solvers.remedies import ANISOTROPIC, UseMethod
 from solvers.singularities.budget import Singularity, default_corners
-from solvers.singularities.placing import far_points
+from solvers.singularities.far_points import far_points
 from solvers.surface.geodesics import straightest
 from solvers.surface.points import SurfacePoint
 from solvers.surface.refinement import refine_at
@@ -116,7 +116,7 @@ def test_handles_chosen_anew_on_the_refined_surface_lead_nowhere_else(seed: int)
     shown: list[Progress] = []
     end = run(make_valid(surface, singularities), shown.append)
     assert end.turns == (0, 0, 0, 0)
-    assert end.layout == ""
+    assert end.aim == ""
     assert sum(step.stage == "verifying" for step in shown) < 12
 
 

@@ -32,7 +32,9 @@ SETTLED, ROUNDS = 1e-4, 5
 """Turn, radians, after which none more is sought, and how many are at most. Chosen."""
 
 
-def joining(solver: IsotropicSolver, singularities: Sequence[Singularity]) -> IsotropicSolver:
+def in_joining_gauge(
+    solver: IsotropicSolver, singularities: Sequence[Singularity]
+) -> IsotropicSolver:
     """Return a solver whose crosses are turned so that separatrices of a configuration join.
 
     Parameters
@@ -42,9 +44,9 @@ def joining(solver: IsotropicSolver, singularities: Sequence[Singularity]) -> Is
     singularities : sequence of Singularity
         On its surface.
     """
-    if not solver.may_turn or not singularities:
+    if not solver.gauge_free or not singularities:
         return solver
-    return solver.turned(joining_turn(solver.solve(singularities)))
+    return solver.in_gauge(joining_gauge(solver.solve(singularities)))
 
 
 def joined_field(prepared: PreparedSurface, turns: Sequence[int] | None = None) -> AlignedField:
@@ -86,11 +88,11 @@ def joined_field(prepared: PreparedSurface, turns: Sequence[int] | None = None) 
     >>> layout.patches, layout.tmesh.n_arcs
     (6, 12)
     """
-    solver = joining(prepared.operators.own, prepared.singularities)
+    solver = in_joining_gauge(prepared.operators.own, prepared.singularities)
     return aligned_field(prepared, turns, like=solver.solve(prepared.singularities))
 
 
-def joining_turn(field: CrossField) -> float:
+def joining_gauge(field: CrossField) -> float:
     """Return the angle to turn all crosses by so that most neighbours lie on common lines.
 
     Curves that run along the line between two singularities tell its direction best, so the turn
@@ -121,7 +123,7 @@ def _turn(field: CrossField) -> float:
     far = FAR * float(chart.area) ** 0.5
     traces = trace(chart, nodes, starts_at(chart, nodes), 0.0, far)
     traces = replace(traces, chords=_before_winding(traces.chords))
-    return _best_turn(traces, crossings(chart, traces.chords))
+    return _best_gauge(traces, crossings(chart, traces.chords))
 
 
 def _before_winding(chords: Chords) -> Chords:
@@ -156,7 +158,7 @@ def _chart(field: CrossField) -> Chart:
     return replace(rough, images=np.where(wild[:, None], rough.images, sides))
 
 
-def _best_turn(traces: Traces, crossings: Crossings) -> float:
+def _best_gauge(traces: Traces, crossings: Crossings) -> float:
     """Return the angle to turn all crosses by so that most neighbouring nodes lie on lines.
 
     Every crossing of traces from two nodes tells the direction from one to the other in the map;
