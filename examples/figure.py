@@ -12,5 +12,5 @@ layout = crossview.layout(solution)
 print(solution.verdict.status, layout.patches, layout.conforming)  # valid 5 True
 
 shown = ["H", "crosses", "separatrices", "singularities", "boundary", "legend"]
-crossview.render(solution, "figure.png", layout=layout, layers=shown, size=(800, 600), scale=2)
-crossview.render(solution, "figure.pdf", layout=layout, layers=shown, size=(800, 600))
+for name in ("figure.png", "figure.pdf"):
+    crossview.render(solution, name, layout=layout, layers=shown, size=(800, 600))

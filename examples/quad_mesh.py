@@ -6,7 +6,8 @@ import crossview
 from crossview import Problem, Singularity, primitives
 
 surface = primitives.cube_sphere(n=16)  # or crossview.read_surface("part.stl")
-cube = [Singularity(surface.closest_point(p), valence=3) for p in product((-0.6, 0.6), repeat=3)]
+corners = product((-0.6, 0.6), repeat=3)
+cube = [Singularity(surface.closest_point(corner), valence=3) for corner in corners]
 
 solution = crossview.solve(Problem(surface, cube))
 mesh = crossview.quads(crossview.layout(solution), target_quads=600)

@@ -1,0 +1,44 @@
+"""The pictures of the documentation: drawn by the program, and by the examples of its pages."""
+
+from __future__ import annotations
+
+import contextlib
+import runpy
+from pathlib import Path
+
+import matplotlib
+from sphinx.errors import ExtensionError
+
+from crossview.cli import main
+from tools.documents import run_examples
+
+ILLUSTRATED = ("tutorial.md", "howto/figures.md", "howto/plates.md")
+"""Pages that show the pictures which their examples draw."""
+
+
+def draw(folder: Path) -> None:
+    """Solve and draw the gallery, and what the examples of pages draw."""
+    for page in ILLUSTRATED:
+        pictures = folder / Path(page).stem
+        pictures.mkdir(exist_ok=True)
+        run_examples(folder.parent / page, pictures)
+    (folder / "examples").mkdir(exist_ok=True)
+    matplotlib.use("agg")
+    for script in sorted((folder.parent.parent / "examples").glob("*.py")):
+        with contextlib.chdir(folder / "examples"):
+            runpy.run_path(str(script))
+    for layer in ("H", "theta", "cut"):
+        layers = f"surface,{layer},singularities,legend,axes"
+        target = folder / f"closed-H-{layer}.png"
+        run("render", "closed-H", "-o", str(target), "--layers", layers)
+    for name in ("suboptimal-a", "suboptimal-b", "suboptimal-c"):
+        layers = "H,separatrices,marks,singularities,boundary,legend"
+        target = folder / f"{name}.png"
+        run("render", name, "-o", str(target), "--layers", layers, "--size", "1600x720")
+    run("gallery", "-o", str(folder / "gallery"))
+
+
+def run(command: str, *options: str) -> None:
+    """Run a command of crossview."""
+    if main([command, "--quiet", *options]) != 0:
+        raise ExtensionError(f"crossview {command} {' '.join(options)} failed")
