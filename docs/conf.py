@@ -6,7 +6,7 @@ from pathlib import Path
 from crossview import __version__
 
 HERE = Path(__file__).parent
-sys.path[:0] = [str(HERE / "_ext"), str(HERE.parent)]
+sys.path[:0] = [str(HERE), str(HERE.parent)]
 
 project = "crossview"
 author = "The crossview developers"
@@ -18,8 +18,8 @@ extensions = [
     "sphinx.ext.autodoc",
     "sphinx.ext.napoleon",
     "sphinx_copybutton",
-    "mathml",
-    "written",
+    "_ext.mathml",
+    "_ext.written",
 ]
 exclude_patterns = ["_ext"]
 suppress_warnings = [

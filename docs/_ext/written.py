@@ -5,10 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 from docutils import nodes
-from interface import interface, plain
-from pictures import draw
 from sphinx.application import Sphinx
-from tables import actions, commands, numbers
+
+from .interface import interface, plain
+from .pictures import draw
+from .tables import actions, commands, numbers
 
 FOLDER = "written"
 
