@@ -22,8 +22,8 @@ from vtkmodules.vtkRenderingCore import vtkRenderWindow
 
 from crossview.gui.app import application
 from crossview.gui.main_window import MainWindow
-from crossview.gui.state import WindowState
 from crossview.scene import ensure_rendering
+from crossview.session.state import SessionState
 from crossview.view.colors import rgb
 
 PATIENCE = 60.0
@@ -39,7 +39,7 @@ class Hand:
         self.canvas = window.viewport.plotter
 
     @property
-    def state(self) -> WindowState:
+    def state(self) -> SessionState:
         return self.window.state
 
     def wait(self, wanted: Callable[[], bool] = lambda: True) -> None:

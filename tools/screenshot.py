@@ -29,7 +29,7 @@ while time.monotonic() < min(rested + REST, start + PATIENCE):
     app.processEvents()
     if window.workspace.solving.busy or not window.state.solved:
         rested = time.monotonic()
-    if window.state.solved and window.state.selected is None:
-        window.workspace.set(selected=0)
+    if window.state.solved and window.state.focus.selected is None:
+        window.workspace.select(0)
 window.grab().save(str(PICTURE))
 window.close()

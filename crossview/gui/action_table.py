@@ -7,24 +7,28 @@ from functools import partial
 
 from crossview.cases.model import METHODS
 from crossview.gui.actions import ActionSpec
-from crossview.gui.state import WindowState
 from crossview.gui.verbs import Verbs
 from crossview.scene import LAYERS
 from crossview.session.commands import METHOD_LABELS
+from crossview.session.hand import OWN_TOOLS, SelectTool
 from crossview.session.moving import NATURAL_LABELS
+from crossview.session.state import SessionState
 
-TOOL_VALENCES = (3, 5, 6, 8)
+
+def _locked(state: SessionState) -> bool:
+    selected = state.focus.selected
+    return selected is not None and state.singularities[selected].locked
 
 
-def _open(state: WindowState) -> bool:
+def _open(state: SessionState) -> bool:
     return state.document is not None
 
 
-def _selected(state: WindowState) -> bool:
-    return state.document is not None and state.selected is not None
+def _selected(state: SessionState) -> bool:
+    return state.document is not None and state.focus.selected is not None
 
 
-def _solvable(state: WindowState) -> bool:
+def _solvable(state: SessionState) -> bool:
     return state.document is not None and state.document.budget.satisfied
 
 
@@ -32,19 +36,19 @@ def _any_tool(verbs: Verbs) -> None:
     verbs.workspace.take_tool(verbs.workspace.state.any_valence)
 
 
-def _is_any(state: WindowState) -> bool:
-    return state.tool is not None and state.tool not in TOOL_VALENCES
+def _is_any(state: SessionState) -> bool:
+    return state.added_valence is not None and state.added_valence not in OWN_TOOLS
 
 
-def _paired(state: WindowState) -> bool:
-    return state.document is not None and state.pair is not None
+def _paired(state: SessionState) -> bool:
+    return state.document is not None and state.focus.pair is not None
 
 
-def _incomplete(state: WindowState) -> bool:
+def _incomplete(state: SessionState) -> bool:
     return state.document is not None and not state.document.budget.satisfied
 
 
-def _placed(state: WindowState) -> bool:
+def _placed(state: SessionState) -> bool:
     return state.document is not None and len(state.document.singularities) > 0
 
 
@@ -70,7 +74,7 @@ def _carried() -> tuple[ActionSpec, ...]:
 
 
 def _with_selected(verb: Callable[[Verbs, int], None], verbs: Verbs) -> None:
-    index = verbs.workspace.state.selected
+    index = verbs.workspace.state.focus.selected
     if index is not None:
         verb(verbs, index)
 
@@ -86,13 +90,13 @@ def _tools() -> tuple[ActionSpec, ...]:
             f"valence:{valence}",
             f"Click on the surface places a valence {valence}; again or Esc ends",
             _open,
-            lambda state, valence=valence: state.tool == valence,  # type: ignore[misc]
+            lambda state, valence=valence: state.added_valence == valence,  # type: ignore[misc]
         )
-        for valence in TOOL_VALENCES
+        for valence in OWN_TOOLS
     )
 
 
-def _movable(state: WindowState) -> bool:
+def _movable(state: SessionState) -> bool:
     """Whether the budget holds, some defect is not 0, and it is not being mended."""
     return state.defects is not None and not state.valid and state.moving is None
 
@@ -217,7 +221,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec(
         "select", "Select", "Singularities", lambda w: w.escape(),
         ("Esc",), "select", "Select and drag singularities; elsewhere turn the view",
-        checked=lambda s: s.tool is None and s.mark_tool is None,
+        checked=lambda s: isinstance(s.tool, SelectTool),
     ),
     *_tools(),
     ActionSpec(
@@ -245,7 +249,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "lock", "Locked", "Singularities",
         partial(_with_selected, lambda w, i: w.workspace.toggle_lock(i)), ("L",), "lock",
         "Keep the selected singularity where it is", _selected,
-        lambda s: s.selected is not None and s.singularities[s.selected].locked,
+        _locked,
     ),
     ActionSpec(
         "delete", "Delete", "Singularities",
@@ -287,7 +291,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
     *_naturals(),
     ActionSpec(
         "along-curvature", "Along curvature", "Singularities",
-        lambda w: w.workspace.set(along_curvature=not w.workspace.state.along_curvature),
+        lambda w: w.workspace.toggle_along_curvature(),
         tip="Draw the crosses of natural singularities towards the directions of curvature",
         checked=lambda s: s.along_curvature, separated=True, submenu="Natural singularities",
     ),
@@ -318,7 +322,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
     *_layers(),
     ActionSpec(
         "dark", "Dark scene", "View",
-        lambda w: w.workspace.set(dark=not w.workspace.state.dark), checked=lambda s: s.dark,
+        lambda w: w.workspace.toggle_dark(), checked=lambda s: s.dark,
         separated=True,
     ),
     ActionSpec(

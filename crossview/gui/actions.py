@@ -9,11 +9,11 @@ from PySide6.QtGui import QAction, QIcon, QKeySequence
 from PySide6.QtWidgets import QWidget
 
 from crossview.gui.icons import icon, valence_icon
-from crossview.gui.state import WindowState
 from crossview.gui.verbs import Verbs
+from crossview.session.state import SessionState
 
 
-def _always(_: WindowState) -> bool:
+def _always(_: SessionState) -> bool:
     return True
 
 
@@ -54,8 +54,8 @@ class ActionSpec:
     keys: tuple[str, ...] = ()
     icon: str = ""
     tip: str = ""
-    enabled: Callable[[WindowState], bool] = _always
-    checked: Callable[[WindowState], bool] | None = None
+    enabled: Callable[[SessionState], bool] = _always
+    checked: Callable[[SessionState], bool] | None = None
     separated: bool = False
     submenu: str = ""
 
@@ -77,7 +77,7 @@ class Actions:
         self.specs = {spec.name: spec for spec in table}
         self.by_name = {name: self._make(spec, parent) for name, spec in self.specs.items()}
 
-    def show(self, state: WindowState) -> None:
+    def show(self, state: SessionState) -> None:
         """Enable, check and name the actions for `state`."""
         for name, spec in self.specs.items():
             action = self.by_name[name]

@@ -7,9 +7,9 @@ from PySide6.QtWidgets import QStackedWidget, QVBoxLayout, QWidget
 
 from crossview.gui.empty_state import EmptyState
 from crossview.gui.message_bar import MessageBar
-from crossview.gui.state import WindowState
 from crossview.gui.viewport import Viewport
 from crossview.gui.workspace import Workspace
+from crossview.session.state import SessionState
 
 
 class Centre(QWidget):
@@ -27,7 +27,7 @@ class Centre(QWidget):
         layout.addWidget(self.stack)
         self.message_bar = MessageBar(workspace, self)
 
-    def show_state(self, old: WindowState, new: WindowState) -> None:
+    def show_state(self, old: SessionState, new: SessionState) -> None:
         """Follow the window's state."""
         nothing = new.document is None and new.faulty is None
         self.stack.setCurrentWidget(self.empty if nothing else self.viewport)

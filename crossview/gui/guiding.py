@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
 from crossview.gui.background import Background
-from crossview.gui.state import WindowState
 from crossview.gui.store import Store
-from crossview.scene import GuideLine
 from crossview.session.guiding import Guidance, GuideCurve
 from crossview.session.live import LiveEdit
+from crossview.session.state import SessionState
 from crossview.view.colors import condition_color
+from crossview.view.values import GuideLine
 
 
 class Guiding:
@@ -40,7 +41,7 @@ class Guiding:
         self._subject = subject
         if subject is None:
             self._background.forget()
-            self._store.set(guide=())
+            self._store.update(replace(state, guide=()))
             return
         _, _, moving, _, condition = subject
         job = partial(_guidance(state, moving).curves, math.radians(state.tolerance), condition)
@@ -52,10 +53,10 @@ class Guiding:
 
     def _show(self, curves: tuple[GuideCurve, ...]) -> None:
         lines = (GuideLine(c.ends, condition_color(c.condition), c.strong) for c in curves)
-        self._store.set(guide=tuple(lines))
+        self._store.update(replace(self._store.state, guide=tuple(lines)))
 
 
-def _subject(state: WindowState) -> tuple[Any, ...] | None:
+def _subject(state: SessionState) -> tuple[Any, ...] | None:
     """Return what the lines depend on: base, document, number, valence, condition."""
     document, base, budget = state.document, state.base, state.budget
     wanted = state.layers["guide"].visible and state.moving is None
@@ -68,22 +69,22 @@ def _subject(state: WindowState) -> tuple[Any, ...] | None:
         valence = state.trial.singularities[moving].valence
     else:
         valence = document.singularities[moving].valence
-    return base, document, moving, valence, state.followed
+    return base, document, moving, valence, state.focus.followed
 
 
-def _moving(state: WindowState) -> int | None:
+def _moving(state: SessionState) -> int | None:
     """Return the number of what is dragged, previewed or hovered; of a row's, what is selected."""
     if state.trial is not None:
         return None if state.trial.edit is None else state.trial.index
-    under = (
-        state.hovered if state.hovered is not None or state.condition is None else state.selected
-    )
+    focus = state.focus
+    row = focus.hovered is None and focus.condition is not None
+    under = focus.selected if row else focus.hovered
     if under is None or state.document is None or state.document.singularities[under].locked:
         return None
     return under
 
 
-def _guidance(state: WindowState, moving: int) -> Guidance:
+def _guidance(state: SessionState, moving: int) -> Guidance:
     trial, document, base = state.trial, state.document, state.base
     if trial is not None and trial.edit is not None and not trial.drag:
         return Guidance(trial.edit, moving, placed=False)

@@ -28,7 +28,6 @@ from crossview.gui.panels import (
     ValidityPanel,
 )
 from crossview.gui.scene_view import figure_view
-from crossview.gui.state import WindowState
 from crossview.gui.status import Status
 from crossview.gui.toolbar import fill_toolbar
 from crossview.gui.valence_box import ValenceBox
@@ -36,6 +35,7 @@ from crossview.gui.viewport import Viewport
 from crossview.gui.window_geometry import WindowGeometry
 from crossview.gui.workspace import Workspace
 from crossview.session.document import Document
+from crossview.session.state import SessionState
 
 
 class MainWindow(QMainWindow):
@@ -100,7 +100,7 @@ class MainWindow(QMainWindow):
         self.viewport.frame_drawn.connect(self.figure_preview.ask)  # the camera may have turned
 
     @property
-    def state(self) -> WindowState:
+    def state(self) -> SessionState:
         """What the window shows."""
         return self.workspace.state
 
@@ -179,7 +179,7 @@ class MainWindow(QMainWindow):
         self.viewport.close_plotter()
         super().closeEvent(event)
 
-    def _show_state(self, old: WindowState, new: WindowState) -> None:
+    def _show_state(self, old: SessionState, new: SessionState) -> None:
         self.centre.show_state(old, new)
         for panel in (
             self.surface_panel,
@@ -208,7 +208,7 @@ class MainWindow(QMainWindow):
 
     def _show_menu(self, singularity: int | None, place: QPoint) -> None:
         if singularity is not None:
-            self.workspace.set(selected=singularity)
+            self.workspace.choose(singularity)
             self.singularities_panel.menu().popup(place)
         elif self.state.document is not None:
             self.menus.scene_menu().popup(place)

@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from crossview.gui.state import FeatureTrial, MarkTool
 from crossview.gui.store import Store
 from crossview.session.commands import Command, MarkFeatures
+from crossview.session.hand import FeatureTrial, MarkTool, SelectTool
 from crossview.session.picking import EdgePicker
 from crossview.workflow.marking import Marking
 from solvers.surface.points import SurfacePoint
@@ -33,21 +33,22 @@ class Marks:
 
     def take_tool(self) -> None:
         """Take the tool that marks edges, or put it back when it is in hand."""
-        taken = None if self._store.state.mark_tool is not None else MarkTool()
-        self._store.set(mark_tool=taken, tool=None, trial=None)
+        state = self._store.state
+        self._store.update(state.tool_taken(SelectTool() if state.mark_tool else MarkTool()))
 
     def try_angle(self, degrees: float | None) -> None:
         """Show which edges are sharper than an angle, and take none yet."""
         document = self._store.state.document
         if document is not None:
             marking = replace(document.problem.marking, dihedral_degrees=degrees)
-            self._store.set(feature_trial=FeatureTrial(marking, marking.on(document.surface)))
+            trial = FeatureTrial(marking, marking.on(document.surface))
+            self._store.update(replace(self._store.state, feature_trial=trial))
 
     def accept(self) -> None:
         """Take the features that are tried."""
         trial = self._store.state.feature_trial
         document = self._store.state.document
-        self._store.set(feature_trial=None)
+        self._store.update(replace(self._store.state, feature_trial=None))
         if trial is None or document is None or trial.marking == document.problem.marking:
             return
         degrees = trial.marking.dihedral_degrees
@@ -56,7 +57,7 @@ class Marks:
 
     def clear(self) -> None:
         """Take all marks away."""
-        self._store.set(feature_trial=None)
+        self._store.update(replace(self._store.state, feature_trial=None))
         self._do(MarkFeatures(Marking(), "remove all features"))
 
     def hover(self, point: SurfacePoint | None, onwards: bool) -> None:
@@ -69,7 +70,7 @@ class Marks:
         if edges is not None and len(edges):
             path = self._edge_picker().vertices_along(self._start(onwards), edges)
         if path is not None or tool.path is not None:
-            self._store.set(mark_tool=replace(tool, path=path))
+            self._store.update(self._store.state.tool_taken(replace(tool, path=path)))
 
     def click(self, point: SurfacePoint, onwards: bool) -> None:
         """Mark the edge at a point of the shown surface, or no longer.
@@ -85,7 +86,7 @@ class Marks:
             return
         edges = self._edges(point, onwards)
         last = self._edge_picker().vertex_at(self._store.state.lifted(point))
-        self._store.set(mark_tool=MarkTool(last))
+        self._store.update(self._store.state.tool_taken(MarkTool(last)))
         inner = edges[document.surface.edge_faces[edges, 1] >= 0]
         if not len(inner):
             return

@@ -12,8 +12,9 @@ from PySide6.QtWidgets import QMenu, QMenuBar
 
 from crossview.cases.gallery import names, path_of
 from crossview.cases.model import METHODS, Case
-from crossview.gui.action_table import ACTIONS, TOOL_VALENCES
+from crossview.gui.action_table import ACTIONS
 from crossview.gui.recent import forget_all, recent
+from crossview.session.hand import OWN_TOOLS
 
 SEARCHED = ("Natural singularities", "Mirror", "Rotate")
 """Submenus whose actions are in the palette: the others repeat some."""
@@ -93,7 +94,7 @@ class Menus:
         """Return the menu for a place of the scene without singularity."""
         menu = QMenu(self._bar)
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        tools = (f"add-{v}" for v in TOOL_VALENCES)
+        tools = (f"add-{v}" for v in OWN_TOOLS)
         for name in ("select", *tools, "add-any", "add-pair", "fit"):
             menu.addAction(self._actions[name])
         return menu

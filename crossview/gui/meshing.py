@@ -5,10 +5,10 @@ from __future__ import annotations
 from functools import partial
 
 from crossview.gui.solving import Solving
-from crossview.gui.state import WindowState
 from crossview.gui.store import Store
-from crossview.scene import Elements
 from crossview.session.meshes import Meshes, lay_out, make_quads, trace
+from crossview.session.state import SessionState
+from crossview.view.values import Elements
 from crossview.workflow.quads import MeshOptions
 from solvers.fields.crossfield import CrossField
 from solvers.layouts.errors import LayoutError
@@ -40,7 +40,7 @@ class Meshing:
     def make(self, options: MeshOptions) -> None:
         """Make the quads of the present solution; one that is still to come is waited for."""
         state = self._store.state
-        self._store.clear_message("mesh")
+        self._store.update(state.unsaid("mesh"))
         if not state.solved or state.solution is None or state.field is not state.solution.field:
             self._next = options
             self._solving.resume()
@@ -62,7 +62,7 @@ class Meshing:
             return False
         made = self._made(solution.field)
         if made is not state.meshes:
-            self._store.set(meshes=made)
+            self._store.update(self._store.state.meshes_made(made))
         if self._next is not None and state.solved:
             self.make(self._next)
             return True
@@ -88,15 +88,14 @@ class Meshing:
 
     def _show(self, made: Meshes) -> None:
         self._kept = [made, *(kept for kept in self._kept if kept.of is not made.of)][:KEPT]
-        self._store.set(meshes=made)
+        self._store.update(self._store.state.meshes_made(made))
         self._solving.pursue()
 
     def _show_quads(self, options: MeshOptions, made: Meshes) -> None:
         if made.trouble is not None:
             self._refuse(made.trouble, options)
         else:
-            layers = self._store.state.with_layer("quads", visible=True).layers
-            self._store.set(layers=layers)
+            self._store.update(self._store.state.with_layer_shown("quads"))
         self._show(made)
 
     def _refuse(self, trouble: LayoutError, options: MeshOptions | None) -> None:
@@ -109,7 +108,7 @@ class Meshing:
     def _failed(self, error: Exception) -> None:
         self._store.fail(error, "mesh")
 
-    def _forget(self, old: WindowState, new: WindowState) -> None:
+    def _forget(self, old: SessionState, new: SessionState) -> None:
         """Wait no longer for a solution that fails to come, nor be silent on what is new."""
         hidden = old.layers["layout"].visible and not new.layers["layout"].visible
         if hidden or new.field is not old.field:
@@ -120,5 +119,5 @@ class Meshing:
             self._next = None
 
 
-def _surface(state: WindowState) -> TriSurface | None:
+def _surface(state: SessionState) -> TriSurface | None:
     return None if state.document is None else state.document.surface

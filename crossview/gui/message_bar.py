@@ -17,8 +17,9 @@ from PySide6.QtWidgets import (
 )
 
 from crossview.gui.icons import colored_icon, icon
-from crossview.gui.state import Message, WindowState
 from crossview.gui.workspace import Workspace
+from crossview.session.message import Message
+from crossview.session.state import SessionState
 from crossview.view.colors import BAD
 from solvers.remedies import Remedy
 
@@ -53,7 +54,7 @@ class MessageBar(QFrame):
         close.setIcon(icon("close"))
         close.setToolTip("Dismiss")
         close.setAutoRaise(True)
-        close.clicked.connect(lambda: self._workspace.set(message=None))
+        close.clicked.connect(lambda: self._workspace.dismiss())
         self.details = QPlainTextEdit()
         self.details.setReadOnly(True)
         self.details.setFixedHeight(104)
@@ -76,7 +77,7 @@ class MessageBar(QFrame):
         self._layout.addWidget(self.details)
         self.hide()
 
-    def show_state(self, old: WindowState, new: WindowState) -> None:
+    def show_state(self, old: SessionState, new: SessionState) -> None:
         """Follow the window's state."""
         if old.message is not new.message:
             self._show(new.message)

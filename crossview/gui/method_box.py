@@ -6,9 +6,9 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QComboBox
 
 from crossview.cases.model import METHODS
-from crossview.gui.state import WindowState
 from crossview.gui.workspace import Workspace
 from crossview.session.commands import METHOD_LABELS
+from crossview.session.state import SessionState
 
 
 class MethodBox(QComboBox):
@@ -24,7 +24,7 @@ class MethodBox(QComboBox):
         self.setEnabled(False)
         self.activated.connect(lambda row: workspace.choose_method(METHODS[row]))
 
-    def show_state(self, old: WindowState, new: WindowState) -> None:
+    def show_state(self, old: SessionState, new: SessionState) -> None:
         """Follow the window's state."""
         if old.document is not new.document:
             self.setCurrentIndex(METHODS.index(new.method))

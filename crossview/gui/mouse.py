@@ -136,8 +136,8 @@ class Mouse(QObject):
         if state.mark_tool is not None:
             if pick is not None:
                 self._workspace.marks.click(pick.point, self._onwards)
-        elif pick is not None and state.tool is not None:
-            self._workspace.add(pick.point, state.tool)
+        elif pick is not None and state.added_valence is not None:
+            self._workspace.add(pick.point, state.added_valence)
         else:
             self._workspace.select(None)
 
@@ -156,7 +156,7 @@ class Mouse(QObject):
         for _ in range(abs(steps)):
             self._workspace.step_valence(index, 1 if steps > 0 else -1)
         if steps:
-            self._workspace.set(selected=index)
+            self._workspace.choose(index)
         return True
 
     def _hover(self, place: QPointF | None) -> None:
@@ -168,10 +168,10 @@ class Mouse(QObject):
         self.hovered.emit(pick)
         over = None if place is None else self._viewport.singularity_at(place)
         self._viewport.point_out(over)
-        self._workspace.set(hovered=over)
+        self._workspace.hover(over)
         if self._workspace.state.mark_tool is not None:
             self._workspace.marks.hover(None if pick is None else pick.point, self._onwards)
-        if self._workspace.state.tool is not None:
+        if self._workspace.state.added_valence is not None:
             point: SurfacePoint | None = None if pick is None or over is not None else pick.point
             self._workspace.trials.preview(point)
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Generator
+from dataclasses import replace
 from functools import partial
 
 from crossview.gui.solving import Solving
-from crossview.gui.state import Message
 from crossview.gui.store import Store
 from crossview.session.commands import Command
+from crossview.session.message import Message
 from crossview.session.moving import move_to_validity, place_natural
 from solvers.progress import Progress
 
@@ -41,7 +42,8 @@ class Moves:
         state = self._store.state
         if state.document is not None:
             alignment = "curvature" if state.along_curvature else "smoothness"
-            self._store.set(selected=None, partner=None)  # on their way there are none
+            # on their way there are none
+            self._store.update(state.focused(replace(state.focus, selected=None, partner=None)))
             self._run(partial(place_natural, state.document, method, alignment))
 
     def _run(self, job: Callable[[], Generator[Progress, None, Command]]) -> None:
@@ -52,7 +54,8 @@ class Moves:
         def stopped() -> None:
             self._solving.restore()
             text = "Stopped; nothing was changed"
-            self._store.set(message=Message(text, "edit", "info", stopped=True))
+            message = Message(text, "edit", "info", stopped=True)
+            self._store.update(self._store.state.said(message))
 
-        self._store.clear_message("edit")
+        self._store.update(self._store.state.unsaid("edit"))
         self._solving.run(job, self._do, failed, stopped)

@@ -45,13 +45,13 @@ class Pairs:
         if point is not None:
             self._at_once(partial(add_pair, point=state.lifted(point)))
             return
-        self._store.clear_message("edit")
+        self._store.update(self._store.state.unsaid("edit"))
         job = partial(add_pair_somewhere, state.document)
         self._solving.run(job, self._do, self._failed)
 
     def merge(self) -> None:
         """Make one of the two selected singularities."""
-        pair = self._store.state.pair
+        pair = self._store.state.focus.pair
         if pair is not None:
             self._at_once(partial(merge, one=pair[0], other=pair[1]))
 
@@ -71,7 +71,7 @@ class Pairs:
         """Add what the index budget lacks."""
         document = self._store.state.document
         if document is not None:
-            self._store.clear_message("edit")
+            self._store.update(self._store.state.unsaid("edit"))
             self._solving.run(partial(distribute, document), self._do, self._failed)
 
     def _failed(self, error: Exception) -> None:

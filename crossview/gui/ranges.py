@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from crossview.gui.state import WindowState
+from crossview.session.state import SessionState
 from crossview.view.scalars import density_limits
 from crossview.workflow.problem import Problem
 
@@ -26,7 +26,7 @@ class HeldRanges:
         self.ranges: dict[str, Range] = {}
         self._of: Problem | None = None
 
-    def follow(self, state: WindowState) -> None:
+    def follow(self, state: SessionState) -> None:
         """Let go of what was fitted to the field of another problem."""
         problem = state.shown_problem
         if problem is None:
@@ -38,9 +38,9 @@ class HeldRanges:
             areas = state.start.surface.face_areas
             self.ranges["error"] = density_limits(state.start.error_density, areas)
 
-    def hold(self, state: WindowState, shown: str, limits: Range) -> None:
+    def hold(self, state: SessionState, shown: str, limits: Range) -> None:
         """Keep the limits that the layer `shown` has of a solution."""
-        if state.iterate is not None or state.shown_problem is None:
+        if state.iterating is not None or state.shown_problem is None:
             return
         for name in HELD.get(shown, ()):
             if state.layers[name].value_range is None:

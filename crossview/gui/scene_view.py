@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 
 from crossview.gui.ranges import NO_RANGES, Ranges
-from crossview.gui.state import WindowState
 from crossview.scene import Elements, LayerSettings, Marker, SceneView, field_view
 from crossview.session.document import Document
+from crossview.session.hand import Focus, SelectTool
+from crossview.session.state import SessionState
 from crossview.view.colors import condition_color
 from crossview.view.field import feature_lines
 from crossview.view.meshes import curves_of, patches_of, quads_of, t_junctions_of
@@ -23,12 +24,12 @@ from solvers.surface.trisurface import TriSurface
 POOR_QUALITY = 0.1
 
 
-def scene_view(state: WindowState, held: Ranges = NO_RANGES) -> SceneView:
+def scene_view(state: SessionState, held: Ranges = NO_RANGES) -> SceneView:
     """Return what to draw.
 
     Parameters
     ----------
-    state : WindowState
+    state : SessionState
     held : mapping of str to (float, float)
         Colour ranges to keep by layer, so that colours do not jump while something is dragged or
         the method is changed.
@@ -48,7 +49,8 @@ def scene_view(state: WindowState, held: Ranges = NO_RANGES) -> SceneView:
         return SceneView(background=background, layers=state.layers)
     field = state.field if state.field is not None and state.field.surface is surface else None
     positions = document.surface.positions([s.point for s in state.singularities])
-    selected = (state.selected, state.partner)
+    condition = state.focus.condition
+    selected = (state.focus.selected, state.focus.partner)
     markers = tuple(
         Marker(_triple(position), s.valence, selected=i in selected, locked=s.locked)
         for i, (s, position) in enumerate(zip(state.singularities, positions, strict=True))
@@ -65,7 +67,7 @@ def scene_view(state: WindowState, held: Ranges = NO_RANGES) -> SceneView:
         singularities=markers,
         preview=_preview(state, surface),
         loop=_loop(state),
-        loop_color="" if state.condition is None else condition_color(state.condition),
+        loop_color="" if condition is None else condition_color(condition),
         guide=state.guide,
         problem=Elements(faces=poor_faces(surface)) if state.poor else state.pointed,
         title=_title(state, document),
@@ -74,7 +76,7 @@ def scene_view(state: WindowState, held: Ranges = NO_RANGES) -> SceneView:
     )
 
 
-def _with_meshes(view: SceneView, state: WindowState) -> SceneView:
+def _with_meshes(view: SceneView, state: SessionState) -> SceneView:
     """Return the view with what has been made of the field."""
     made, separatrices = state.made, state.separatrices
     if separatrices is not None:
@@ -89,7 +91,7 @@ def _with_meshes(view: SceneView, state: WindowState) -> SceneView:
     )
 
 
-def _with_features(view: SceneView, state: WindowState) -> SceneView:
+def _with_features(view: SceneView, state: SessionState) -> SceneView:
     """Return the view with the feature edges."""
     features = state.features
     if features is None:
@@ -104,36 +106,36 @@ def poor_faces(surface: TriSurface) -> IntArray:
     return np.flatnonzero(surface.triangle_quality < POOR_QUALITY)
 
 
-def figure_view(state: WindowState, transparent: bool, held: Ranges = NO_RANGES) -> SceneView:
+def figure_view(state: SessionState, transparent: bool, held: Ranges = NO_RANGES) -> SceneView:
     """Return what to draw in a figure: what is shown, without what only helps to edit."""
-    plain = replace(state, trial=None, selected=None, partner=None)
-    plain = replace(plain, condition=None, guide=(), poor=False)
-    view = scene_view(replace(plain, mark_tool=None), held)
+    plain = replace(state, trial=None, focus=Focus(), guide=(), poor=False, tool=SelectTool())
+    view = scene_view(plain, held)
     return replace(view, background="transparent") if transparent else view
 
 
-def _preview(state: WindowState, surface: TriSurface) -> Marker | None:
+def _preview(state: SessionState, surface: TriSurface) -> Marker | None:
     trial = state.trial
     if trial is None or trial.drag or trial.surface is not surface:
         return None
     return Marker(_triple(surface.position(trial.placed)), trial.singularities[-1].valence)
 
 
-def _loop(state: WindowState) -> IntArray | None:
+def _loop(state: SessionState) -> IntArray | None:
     if state.mark_tool is not None:
         return state.mark_tool.path
-    if state.base is None or state.condition is None:
+    condition = state.focus.condition
+    if state.base is None or condition is None:
         return None
-    return state.base.solver.holonomy.conditions[state.condition].path
+    return state.base.solver.holonomy.conditions[condition].path
 
 
-def _title(state: WindowState, document: Document) -> str:
+def _title(state: SessionState, document: Document) -> str:
     title = document.source.title or document.name
     shown = state.comparing and state.layers["error"].visible and _start(state) is not None
     return f"Error at the start \u2013 {title}" if shown else title
 
 
-def _start(state: WindowState) -> CrossField | None:
+def _start(state: SessionState) -> CrossField | None:
     """Return the start if it can be compared with the field shown."""
     start, field = state.start, state.field
     return start if start and field and start.surface is field.surface else None

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator
 from functools import partial
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from PySide6.QtCore import QTimer
 
 from crossview.gui.background import Background
-from crossview.gui.state import Message
 from crossview.gui.store import Store
 from crossview.session.live import LiveBase, LiveEdit, cut, prepare
-from crossview.session.meshes import Meshes
-from crossview.session.methods import Iterate, MethodSolver, Solved
-from crossview.session.moving import Moving
+from crossview.session.message import Message
+from crossview.session.methods import MethodSolver
+from crossview.session.shown import Solved
 from crossview.session.tracing import LiveTracer, Traced
 from crossview.view.texts import energy
 from solvers.progress import Progress
@@ -58,24 +57,20 @@ class Solving:
         """Run any job in place of what runs now; `stopped` is called if the user stops it."""
         self._still.stop()
         self._when_stopped = stopped or self._say_stopped
-        self._store.clear_message("stop")
-        self._store.set(iterate=None, moving=None)
+        self._store.update(self._store.state.work_ended().unsaid("stop"))
         self._background.submit(job, done, fail)
 
     def follow(self) -> None:
         """Drop what was asked before and bring the results in line with the present document."""
         self._background.forget()
-        self._store.set(iterate=None)
-        self._store.clear_message("solve")
-        self._store.clear_message("stop")
+        self._store.update(self._store.state.work_ended().unsaid("solve", "stop"))
         document, base = self._store.state.document, self._store.state.base
         if document is None:
             return
         if document.budget.satisfied:
             self.solve()
         elif base is None:
-            job = partial(prepare, document)
-            self.run(job, lambda made: self._store.set(base=made), self._failed)
+            self.run(partial(prepare, document), self._show_base, self._failed)
 
     def solve(self) -> None:
         """Solve the present document with refinement, if its index budget holds."""
@@ -117,64 +112,36 @@ class Solving:
 
     def restore(self) -> None:
         """Show the present document's own field again, after a job that has shown others."""
-        state = self._store.state
-        if state.solution is not None and state.solved:
-            base = state.base or LiveBase.from_solution(state.solution)
-            self._store.set(field=state.solution.field, base=base, cut_graph=None)
-            self.pursue()
-        else:
-            self._store.set(field=None, cut_graph=None)
-            self.follow()
+        self._store.update(self._store.state.put_back())
+        self.resume()
 
     def _progressed(self, progress: Progress | None) -> None:
-        changes: dict[str, Any] = {"progress": progress}
-        if progress is None:
-            changes["moving"] = None
-        elif isinstance(progress, Iterate):
-            changes |= {"iterate": progress, "start": progress.start}
-            if progress.field is not None:
-                changes |= {"field": progress.field, "base": progress.base, "cut_graph": None}
-        elif isinstance(progress, Moving):
-            changes["moving"] = progress
-            if progress.field is not None:
-                changes |= {"field": progress.field, "cut_graph": None}
-                base = self._store.state.base
-                if base is not None and base.surface is not progress.field.surface:
-                    changes["base"] = None  # the field is of the surface before refinement
-        self._store.set(**changes)
+        self._store.update(self._store.state.progressed(progress))
+
+    def _show_base(self, base: LiveBase) -> None:
+        self._store.update(self._store.state.base_prepared(base))
 
     def _show(self, solved: Solved) -> None:
-        self._store.clear_message("solve")
-        solution = solved.solution
-        self._store.set(
-            solution=solution,
-            base=LiveBase.from_solution(solution),
-            field=solution.field,
-            start=solved.start,
-            iterate=None,
-            cut_graph=None,
-        )
+        self._store.update(self._store.state.solution_found(solved))
         self.pursue()
 
     def _cut(self) -> bool:
         """Compute the cut graph when its layer is visible and it is not there yet."""
-        state = self._store.state
-        solution = state.solution
-        if solution is None or state.cut_graph is not None or not state.layers["cut"].visible:
+        state, shown = self._store.state, self._store.state.shown
+        wanted = state.layers["cut"].visible
+        if not wanted or not isinstance(shown, Solved) or shown.cut_graph is not None:
             return False
+        solution = shown.solution
 
         def show(edges: IntArray) -> None:
-            self._store.set(cut_graph=edges)
+            self._store.update(self._store.state.cut_along(solution, edges))
             self.pursue()
 
         self.run(partial(cut, solution), show, self._failed)
         return True
 
     def _show_live(self, traced: Traced) -> None:
-        changes: dict[str, Any] = {"field": traced.field, "cut_graph": None}
-        if traced.separatrices is not None:
-            changes["meshes"] = Meshes(traced.field, traced.separatrices)
-        self._store.set(**changes)
+        self._store.update(self._store.state.field_tried(traced))
         if traced.separatrices is None and self._store.state.layers["separatrices"].visible:
             self._still.start()
 
@@ -189,13 +156,13 @@ class Solving:
             )
 
     def _failed(self, error: Exception) -> None:
-        self._store.set(solution=None, field=None, start=None, iterate=None, cut_graph=None)
+        self._store.update(self._store.state.no_solution())
         self._store.fail(error, "solve")
 
     def _keep_iterate(self) -> None:
         """Make the last iterate of a stopped solve its result, and say that it is no more."""
-        iterate = self._store.state.iterate
-        if iterate is None:
+        iterating = self._store.state.iterating
+        if iterating is None:
             self._say_stopped()
             return
 
@@ -203,10 +170,12 @@ class Solving:
             self._show(solved)
             reached = energy(solved.solution.field.energy)
             text = f"Stopped: the last iterate is kept, not converged (E = {reached})"
-            self._store.set(message=Message(text, "solve", "info", stopped=True))
+            message = Message(text, "solve", "info", stopped=True)
+            self._store.update(self._store.state.said(message))
 
-        self.run(partial(self._solver.keep, iterate.step), show, self._failed)
+        self.run(partial(self._solver.keep, iterating.step), show, self._failed)
 
     def _say_stopped(self) -> None:
         text = "Stopped; what was there is kept"
-        self._store.set(message=Message(text, "stop", "info", stopped=True))
+        message = Message(text, "stop", "info", stopped=True)
+        self._store.update(self._store.state.said(message))

@@ -8,9 +8,9 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QLabel, QProgressBar, QStatusBar, QToolButton
 
 from crossview.gui.picking import Pick
-from crossview.gui.state import WindowState
 from crossview.gui.workspace import Workspace
 from crossview.session.methods import Iterate
+from crossview.session.state import SessionState
 from crossview.view.texts import energy, hover
 from solvers.progress import Progress
 
@@ -50,7 +50,7 @@ class Status:
         self._patience.timeout.connect(lambda: self._show_bar(True))
         self._show_bar(False)
 
-    def show_state(self, old: WindowState, new: WindowState) -> None:
+    def show_state(self, old: SessionState, new: SessionState) -> None:
         """Follow the window's state."""
         if old.progress is not new.progress:
             self._show_progress(new.progress)

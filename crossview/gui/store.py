@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import traceback
 from collections.abc import Callable
-from dataclasses import replace
-from typing import Any
+from dataclasses import fields
 
 from PySide6.QtCore import QObject, Signal
 
-from crossview.gui.state import Message, ShowWhere, WindowState
-from crossview.scene import Elements
+from crossview.session.message import Message, ShowWhere
 from crossview.session.opening import Opening
+from crossview.session.state import SessionState
+from crossview.view.values import Elements
 from crossview.workflow.quads import MeshOptions
 from solvers.errors import CrossviewError, SurfaceError
 from solvers.remedies import Remedy, RepairSurface, TakeLargest, UseMethod
@@ -26,19 +26,19 @@ class Store(QObject):
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self._state = WindowState()
+        self._state = SessionState()
 
     @property
-    def state(self) -> WindowState:
+    def state(self) -> SessionState:
         """What the window shows now."""
         return self._state
 
-    def set(self, **changes: Any) -> None:
-        """Change fields of the state; nothing happens when none differs."""
+    def update(self, new: SessionState) -> None:
+        """Go on to the next state; nothing happens when no field differs."""
         old = self._state
-        if any(getattr(old, name) is not value for name, value in changes.items()):
-            self._state = replace(old, **changes)
-            self.changed.emit(old, self._state)
+        if any(getattr(old, f.name) is not getattr(new, f.name) for f in fields(new)):
+            self._state = new
+            self.changed.emit(old, new)
 
     def fail(
         self,
@@ -47,7 +47,7 @@ class Store(QObject):
         tried: Opening | MeshOptions | None = None,
         pointed: Elements | None = None,
     ) -> None:
-        """Show an error until its cause is gone (`clear_message`).
+        """Show an error until its cause is gone (`SessionState.unsaid`).
 
         Parameters
         ----------
@@ -68,13 +68,8 @@ class Store(QObject):
         else:
             text = f"Something went wrong: {error or type(error).__name__}"
             details = "".join(traceback.format_exception(error))
-        self.set(message=Message(text, cause, "error", details, remedies, tried, pointed=pointed))
-
-    def clear_message(self, cause: str) -> None:
-        """Take the message away if this was its cause."""
-        message = self._state.message
-        if message is not None and message.cause == cause:
-            self.set(message=None)
+        message = Message(text, cause, "error", details, remedies, tried, pointed=pointed)
+        self.update(self.state.said(message))
 
     def attempt(self, cause: str, verb: Callable[[], object]) -> None:
         """Do something at once that may fail."""
@@ -85,7 +80,7 @@ class Store(QObject):
         except OSError as error:
             self.fail(CrossviewError(error.strerror or str(error), str(error.filename)), cause)
         else:
-            self.clear_message(cause)
+            self.update(self.state.unsaid(cause))
 
 
 def offered(

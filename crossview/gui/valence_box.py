@@ -5,7 +5,6 @@ from __future__ import annotations
 from PySide6.QtCore import QLocale, Qt
 from PySide6.QtWidgets import QSpinBox
 
-from crossview.gui.action_table import TOOL_VALENCES
 from crossview.gui.workspace import Workspace
 from crossview.session.commands import MAX_VALENCE, MIN_VALENCE
 
@@ -15,15 +14,9 @@ class ValenceBox(QSpinBox):
 
     def __init__(self, workspace: Workspace) -> None:
         super().__init__()
-        self._workspace = workspace
         self.setLocale(QLocale.c())
         self.setRange(MIN_VALENCE, MAX_VALENCE)
         self.setValue(workspace.state.any_valence)
         self.setToolTip("Valence that the tool n places")
         self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
-        self.valueChanged.connect(self._changed)
-
-    def _changed(self, valence: int) -> None:
-        held = self._workspace.state.tool
-        carried = held is not None and held not in TOOL_VALENCES
-        self._workspace.set(any_valence=valence, tool=valence if carried else held)
+        self.valueChanged.connect(workspace.choose_valence)

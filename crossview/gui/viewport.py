@@ -24,10 +24,11 @@ from pyvistaqt import QtInteractor
 from crossview.gui.picking import Pick, Picker, Place
 from crossview.gui.ranges import HeldRanges
 from crossview.gui.scene_view import scene_view
-from crossview.gui.state import WindowState
 from crossview.gui.workspace import Workspace
 from crossview.scene import Scene, software_renderer
 from crossview.scene.singularities import marker_radius
+from crossview.session.hand import Focus, SelectTool
+from crossview.session.state import SessionState
 from crossview.view.scalars import shown_scalar
 
 LATE_MS = 120
@@ -37,6 +38,8 @@ REST_MS = 300
 TITLE_PIXELS, BESIDE_TITLE = 17, 130
 """Height of the title's letters; pixels beside it that the axes need."""
 BASE_DPI = 72
+UNSEEN = {"focus", "message", "progress", "redo_name", "shown", "undo_name"}
+"""Fields of the state of which the scene shows parts or nothing."""
 REACH = 7.0
 """Pixels around a singularity that count as on it."""
 
@@ -71,7 +74,7 @@ class Viewport(QWidget):
             window.AddObserver("EndEvent", self._frame_ended),
         ]
 
-    def show_state(self, old: WindowState, new: WindowState) -> None:
+    def show_state(self, old: SessionState, new: SessionState) -> None:
         """Follow the window's state."""
         dragging = new.trial is not None and new.trial.drag
         if _same_picture(old, new):
@@ -156,8 +159,7 @@ class Viewport(QWidget):
     def point_out(self, singularity: int | None) -> None:
         """Show by the cursor that something can be taken hold of."""
         hand = Qt.CursorShape.PointingHandCursor
-        tool = self._workspace.state.tool
-        idle = tool is None and self._workspace.state.mark_tool is None
+        idle = isinstance(self._workspace.state.tool, SelectTool)
         plain = Qt.CursorShape.ArrowCursor if idle else Qt.CursorShape.CrossCursor
         self.plotter.setCursor(plain if singularity is None else hand)
 
@@ -203,12 +205,15 @@ class Viewport(QWidget):
             self.frame_drawn.emit(1000.0 * (time.perf_counter() - self._started))
 
 
-def _same_picture(old: WindowState, new: WindowState) -> bool:
+def _same_picture(old: SessionState, new: SessionState) -> bool:
     """Whether only what the scene does not show differs."""
-    unseen = {"message", "progress", "iterate", "undo_name", "redo_name", "hovered", "pinned"}
-    told = old.faulty is new.faulty and old.pointed is new.pointed
-    return told and all(
-        getattr(old, part.name) is getattr(new, part.name)
-        for part in fields(new)
-        if part.name not in unseen
+    names = [f.name for f in fields(new) if f.name not in UNSEEN]
+    names += ["drawn", "moving", "start", "faulty", "pointed"]
+    return _marked(old.focus) == _marked(new.focus) and all(
+        getattr(old, name) is getattr(new, name) for name in names
     )
+
+
+def _marked(focus: Focus) -> Focus:
+    """Return what the scene shows of a focus."""
+    return replace(focus, hovered=None, pinned=None)

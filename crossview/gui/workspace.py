@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
-from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 
@@ -14,10 +13,8 @@ from crossview.gui.meshing import Meshing
 from crossview.gui.moves import Moves
 from crossview.gui.pairs import Pairs
 from crossview.gui.solving import Solving
-from crossview.gui.state import Faulty, ShowWhere
 from crossview.gui.store import Store
 from crossview.gui.trials import Trials
-from crossview.scene import Elements
 from crossview.session.commands import (
     AddSingularities,
     ChangeValence,
@@ -28,9 +25,13 @@ from crossview.session.commands import (
     next_valence,
 )
 from crossview.session.document import Document
+from crossview.session.hand import AddTool, SelectTool
 from crossview.session.history import History
 from crossview.session.mending import mend
+from crossview.session.message import Faulty, ShowWhere
 from crossview.session.opening import Opening, open_target, read_triangles
+from crossview.view.scene_view import LayerSettings
+from crossview.view.values import Elements
 from crossview.workflow.quads import MeshOptions
 from solvers.remedies import MakeValid, Remedy, RepairSurface, TakeLargest
 from solvers.singularities.budget import Singularity
@@ -91,17 +92,37 @@ class Workspace(Store):
 
     def select(self, index: int | None, both: bool = False) -> None:
         """Select singularity `index`; with `both` the one selected before stays selected too."""
-        before = self.state.selected if both and index != self.state.selected else None
-        self.set(selected=index, partner=before)
+        self.update(self.state.focused(self.state.focus.on(index, both=both)))
+
+    def choose(self, index: int) -> None:
+        """Select singularity `index` beside one that may be selected already."""
+        self.update(self.state.focused(replace(self.state.focus, selected=index)))
+
+    def hover(self, index: int | None) -> None:
+        """Tell that singularity `index` is under the mouse."""
+        self.update(self.state.focused(replace(self.state.focus, hovered=index)))
+
+    def point_out(self, condition: int | None) -> None:
+        """Point out the loop of a holonomy condition."""
+        self.update(self.state.focused(replace(self.state.focus, condition=condition)))
+
+    def toggle_pin(self, condition: int) -> None:
+        """Let the guide keep to a holonomy condition, or no longer."""
+        pinned = None if self.state.focus.pinned == condition else condition
+        self.update(self.state.focused(replace(self.state.focus, pinned=pinned)))
 
     def take_tool(self, valence: int) -> None:
         """Take the tool that adds a valence, or put it back when it is in hand."""
-        taken = None if self.state.tool == valence else valence
-        self.set(tool=taken, trial=None, mark_tool=None)
+        held = self.state.added_valence == valence
+        self.update(self.state.tool_taken(SelectTool() if held else AddTool(valence)))
+
+    def choose_valence(self, valence: int) -> None:
+        """Let the tool "any valence" carry another; in hand, it does so at once."""
+        self.update(self.state.any_valence_chosen(valence))
 
     def put_tool_back(self) -> None:
         """Take the select tool."""
-        self.set(tool=None, trial=None, mark_tool=None)
+        self.update(self.state.tool_taken(SelectTool()))
 
     def add(self, point: SurfacePoint, valence: int) -> None:
         """Add a singularity at `point` of the shown surface and select it."""
@@ -109,7 +130,7 @@ class Workspace(Store):
         if document is not None:
             added = Singularity(self.state.lifted(point), valence)
             self.do(AddSingularities((added,)))
-            self.set(selected=len(document.singularities))
+            self.choose(len(document.singularities))
 
     def change_valence(self, index: int, valence: int) -> None:
         """Give singularity `index` another valence; 4 is regular and not taken."""
@@ -165,20 +186,36 @@ class Workspace(Store):
 
     def compare(self) -> None:
         """Show the error density of the start, or of the result again, on the same range."""
-        comparing = not self.state.comparing
-        layers = self.state.with_layer("error", visible=True).layers
-        self.set(comparing=comparing, layers=layers)
+        state = self.state.with_layer_shown("error")
+        self.update(replace(state, comparing=not state.comparing))
 
-    def set_layer(self, name: str, **changes: Any) -> None:
-        """Change settings of one layer."""
-        self.set(layers=self.state.with_layer(name, **changes).layers)
+    def set_layer(self, name: str, settings: LayerSettings) -> None:
+        """Draw one layer otherwise."""
+        self.update(self.state.with_layer(name, settings))
         if not self.state.layers["layout"].visible:
-            self.clear_message("layout")
+            self.update(self.state.unsaid("layout"))
         self.solving.pursue()
 
     def toggle_layer(self, name: str) -> None:
         """Show or hide a layer."""
-        self.set_layer(name, visible=not self.state.layers[name].visible)
+        layer = self.state.layers[name]
+        self.set_layer(name, replace(layer, visible=not layer.visible))
+
+    def toggle_dark(self) -> None:
+        """Draw on a dark background, or on white again."""
+        self.update(replace(self.state, dark=not self.state.dark))
+
+    def toggle_along_curvature(self) -> None:
+        """Draw the crosses of natural singularities towards the directions of curvature, or not."""
+        self.update(replace(self.state, along_curvature=not self.state.along_curvature))
+
+    def show_poor(self, shown: bool) -> None:
+        """Point out the poor triangles."""
+        self.update(replace(self.state, poor=shown))
+
+    def dismiss(self) -> None:
+        """Take the message away."""
+        self.update(self.state.said(None))
 
     def _open(self, opening: Opening) -> None:
         def failed(error: Exception) -> None:
@@ -195,7 +232,8 @@ class Workspace(Store):
             if message is not None and message is self.state.message:
                 left = tuple(r for r in message.remedies if not isinstance(r, ShowWhere))
                 faulty = Faulty(*triangles, elements)
-                self.set(message=replace(message, remedies=left, faulty=faulty))
+                said = replace(message, remedies=left, faulty=faulty)
+                self.update(self.state.said(said))
             self.solving.resume()
 
         self.solving.run(
@@ -204,44 +242,14 @@ class Workspace(Store):
 
     def _open_document(self, document: Document) -> None:
         self._history.open(document)
-        for cause in ("open", "save", "export"):
-            self.clear_message(cause)
+        self.update(self.state.unsaid("open", "save", "export"))
         self._document_changed()
         self.opened.emit(document)
 
     def _document_changed(self) -> None:
         """Bring everything in line with the present document of the history."""
-        document, state = self._history.document, self.state
-        changes: dict[str, Any] = {
-            "document": document,
-            "trial": None,
-            "feature_trial": None,
-            "partner": None,
-            "hovered": None,
-            "undo_name": self._history.undo_name,
-            "redo_name": self._history.redo_name,
-        }
-        if state.selected is not None and (
-            document is None or state.selected >= len(document.singularities)
-        ):
-            changes["selected"] = None
-        before = None if state.document is None else state.document.surface
-        if document is None or document.surface is not before:
-            gone = (
-                "base",
-                "solution",
-                "field",
-                "start",
-                "cut_graph",
-                "selected",
-                "condition",
-                "pinned",
-            )
-            changes |= dict.fromkeys((*gone, "mark_tool"))
-        elif not document.budget.satisfied:
-            changes |= {"solution": None, "field": None, "start": None, "cut_graph": None}
-        self.clear_message("edit")
-        self.clear_message("mesh")
-        self.clear_message("layout")
-        self.set(**changes)
+        history = self._history
+        self.update(
+            self.state.document_changed(history.document, history.undo_name, history.redo_name)
+        )
         self.solving.follow()

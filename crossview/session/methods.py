@@ -7,6 +7,7 @@ from collections.abc import Generator
 from dataclasses import dataclass
 
 from crossview.session.live import LiveBase, with_directions
+from crossview.session.shown import Solved
 from crossview.workflow.pipeline import Pipeline, Solution
 from crossview.workflow.problem import Problem
 from solvers.fields.aligned import AlignedField, IntegratedField
@@ -40,21 +41,6 @@ class Iterate(Progress):
     base: LiveBase
     start: CrossField
     field: CrossField | None
-
-
-@dataclass(frozen=True, eq=False)
-class Solved:
-    """A solution and the field it started from.
-
-    Parameters
-    ----------
-    solution : Solution
-    start : CrossField or None
-        The boundary-aligned field; None for the isotropic method, which starts from nothing.
-    """
-
-    solution: Solution
-    start: CrossField | None
 
 
 class MethodSolver:
@@ -91,9 +77,10 @@ class MethodSolver:
 
     def _ready(self, solution: Solution) -> Solved:
         with_directions(solution.field)
-        if solution.integrated is None:
-            return Solved(solution, None)
-        return Solved(solution, self._start_of(solution.integrated.aligned))
+        base, start = LiveBase.from_solution(solution), None
+        if solution.integrated is not None:
+            start = self._start_of(solution.integrated.aligned)
+        return Solved(solution, start, base)
 
     def _start_of(self, aligned: AlignedField) -> CrossField:
         if self._start is None or self._start[0] is not aligned:

@@ -33,7 +33,7 @@ NATURAL_LABELS = {
 
 
 @dataclass(frozen=True, eq=False)
-class Moving(Progress):
+class Waypoint(Progress):
     """A step of the singularities' way, ready to be drawn.
 
     Parameters
@@ -57,7 +57,7 @@ class Moving(Progress):
 def move_to_validity(
     document: Document, base: LiveBase | None
 ) -> Generator[Progress, None, Command]:
-    """Move the unlocked singularities until the document is valid; yields each `Moving`.
+    """Move the unlocked singularities until the document is valid; yields each `Waypoint`.
 
     Raises
     ------
@@ -73,7 +73,7 @@ def move_to_validity(
         if not isinstance(step, Moved):
             return step
         field = _field(base, step.singularities)
-        return Moving(step.stage, step.fraction, step.singularities, step.defects, field)
+        return Waypoint(step.stage, step.fraction, step.singularities, step.defects, field)
 
     moved = yield from relayed(computation, show)
     aimed = f", aimed at {moved.aim}" if moved.aim else ""
@@ -85,7 +85,7 @@ def place_natural(
 ) -> Generator[Progress, None, Command]:
     """Find the singularities of a smooth cross-field, with automatic corners as it has.
 
-    Yields a `Moving` without singularities for each field on its way.
+    Yields a `Waypoint` without singularities for each field on its way.
 
     Parameters
     ----------
@@ -105,7 +105,7 @@ def place_natural(
             return step
         drawn = time.monotonic()
         field = with_directions(step.field)
-        return Moving(step.stage, step.fraction, (), None, field)
+        return Waypoint(step.stage, step.fraction, (), None, field)
 
     found = yield from relayed(_paced(computation), show)
     name = f"natural singularities ({NATURAL_LABELS[method]})"

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QPushButton
 
 from crossview.cases.gallery import path_of
 from crossview.cases.model import Case
-from crossview.gui.state import WindowState
+from crossview.session.state import SessionState
 from crossview.view.colors import BAD, GOOD, WAITING, valence_color
 from tests.windowing import Hand
 
@@ -51,10 +51,10 @@ def test_anisotropic_where_isotropic_fails_and_back(hand: Hand, isotropic_case: 
     # watch E fall: the field of several iterations is drawn before the last
     texts, drawn = set(), []
 
-    def watch(old: WindowState, new: WindowState) -> None:
+    def watch(old: SessionState, new: SessionState) -> None:
         texts.add(hand.window.status.stage.text())
-        if new.iterate is not None and new.field is not old.field:
-            drawn.append((new.iterate.step.energies, new.field))
+        if new.iterating is not None and new.field is not old.field:
+            drawn.append((new.iterating.step.energies, new.field))
 
     hand.window.workspace.changed.connect(watch)
     choose(hand, "Anisotropic")
@@ -85,7 +85,7 @@ def test_anisotropic_where_isotropic_fails_and_back(hand: Hand, isotropic_case: 
     hand.key(Qt.Key.Key_3, KEYPAD)
     hand.wait(lambda: hand.state.solved)
     assert hand.state.field is anisotropic
-    assert hand.state.tool is None  # the keypad's 3 is not the 3 that adds
+    assert hand.state.added_valence is None  # the keypad's 3 is not the 3 that adds
     hand.key(Qt.Key.Key_2, KEYPAD)
     hand.wait(lambda: hand.state.solved)
     assert hand.state.field.method == "aligned"
@@ -124,8 +124,8 @@ def test_stop_keeps_the_last_iterate(hand: Hand, isotropic_case: Cases) -> None:
     hand.open(isotropic_case("annulus-far"))
     stop = hand.window.actions_table.by_name["stop"]
 
-    def stop_soon(old: WindowState, new: WindowState) -> None:
-        if new.iterate is not None and len(new.iterate.step.energies) > 20:
+    def stop_soon(old: SessionState, new: SessionState) -> None:
+        if new.iterating is not None and len(new.iterating.step.energies) > 20:
             hand.window.workspace.changed.disconnect(stop_soon)
             stop.trigger()
 
@@ -221,7 +221,7 @@ def test_stop_leaves_the_document_as_it_was(hand: Hand, isotropic_case: Cases, w
     before, field = hand.state.document, hand.state.field
     actions = hand.window.actions_table.by_name
 
-    def stop_at_once(old: WindowState, new: WindowState) -> None:
+    def stop_at_once(old: SessionState, new: SessionState) -> None:
         if new.progress is not None:
             hand.window.workspace.changed.disconnect(stop_at_once)
             actions["stop"].trigger()

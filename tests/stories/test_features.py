@@ -32,7 +32,7 @@ def sphere(hand: Hand, tmp_path: Path) -> Hand:
     """The window with a sphere and the cube's eight, separatrices off."""
     path = tmp_path / "sphere.json"
     path.write_text(json.dumps(SPHERE))
-    hand.window.workspace.set_layer("separatrices", visible=False)
+    hand.window.workspace.toggle_layer("separatrices")
     hand.open(path)
     return hand
 

@@ -22,7 +22,7 @@ def test_open_add_drag_undo_redo_delete_export(hand: Hand, tmp_path: Path) -> No
     assert hand.state.field is None
     assert not hand.shows(BLUE)
     hand.key(Qt.Key.Key_3)
-    assert hand.state.tool == 3
+    assert hand.state.added_valence == 3
     spots = [(0.5, 0.1, 0.0), (-0.1, 0.5, 0.0), (-0.5, -0.1, 0.0), (0.1, -0.5, 0.0)]
     for count, spot in enumerate(spots, start=1):
         hand.click(hand.place(spot))
@@ -35,7 +35,7 @@ def test_open_add_drag_undo_redo_delete_export(hand: Hand, tmp_path: Path) -> No
         atol=0.01,
     )
     hand.key(Qt.Key.Key_3)  # a second press ends
-    assert hand.state.tool is None
+    assert hand.state.added_valence is None
 
     # the budget holds: the field is there, aligned with the circle
     hand.wait(lambda: hand.state.field is not None)
@@ -80,7 +80,7 @@ def test_open_add_drag_undo_redo_delete_export(hand: Hand, tmp_path: Path) -> No
     assert count_color(figure, BLUE) > 4 * 50
 
     # delete the selected one: the budget is missed, the field gone
-    assert hand.state.selected == 0
+    assert hand.state.focus.selected == 0
     hand.key(Qt.Key.Key_Delete)
     hand.wait()
     assert len(hand.state.singularities) == 3
@@ -150,7 +150,7 @@ def test_escape_during_a_drag_puts_it_back(hand: Hand) -> None:
 def test_locked_ones_stay(hand: Hand) -> None:
     hand.open("disk-4")
     hand.click(hand.place_of(0))
-    assert hand.state.selected == 0
+    assert hand.state.focus.selected == 0
     hand.trigger("lock")
     assert hand.state.singularities[0].locked
     point, start = hand.state.singularities[0].point, hand.place_of(0)

@@ -53,11 +53,11 @@ def test_add_a_pair_under_the_mouse_split_merge_and_undo(hand: Hand) -> None:
     hand.click(hand.place_of(4))
     assert not hand.window.actions_table.by_name["merge"].isEnabled()
     hand.click(hand.place_of(5), keys=CTRL)
-    assert hand.state.pair == (4, 5)
+    assert hand.state.focus.pair == (4, 5)
     hand.trigger("merge")
     assert valences(hand) == [3, 3, 3, 3]
     assert hand.state.undo_name == "merge singularities 5 and 6"
-    assert hand.state.selected is None
+    assert hand.state.focus.selected is None
 
     # 3 and 3 become a 2, and split again
     hand.click(hand.place_of(0))

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QTimer
 
-from crossview.gui.state import WindowState
+from crossview.session.state import SessionState
 from tests.windowing import Hand
 
 
@@ -52,7 +52,7 @@ def test_stop_keeps_what_was_there_and_solve_goes_on(hand: Hand, large_case: str
     workspace = hand.window.workspace
     stop = hand.window.actions_table.by_name["stop"]
 
-    def stop_at_factor(old: WindowState, new: WindowState) -> None:
+    def stop_at_factor(old: SessionState, new: SessionState) -> None:
         if new.progress is not None and new.progress.stage == "factorising":
             stop.trigger()
 

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QApplication, QPushButton
 from crossview.cases.gallery import path_of
 from crossview.cases.model import Case
 from crossview.gui.panels.quads import COUNT, LENGTH, NOTHING, STALE
-from crossview.gui.state import WindowState
+from crossview.session.state import SessionState
 from crossview.view.colors import CROSS, MARK_WARNING, PATCHES, QUAD_EDGE, valence_color
 from tests.windowing import Hand, count_color
 
@@ -159,7 +159,7 @@ def test_separatrices_follow_a_drag(hand: Hand) -> None:
     start, end = hand.place_of(0), hand.place((0.4, 0.35, 0.0))
     seen = []
 
-    def watch(old: WindowState, new: WindowState) -> None:
+    def watch(old: SessionState, new: SessionState) -> None:
         if new.separatrices is not old.separatrices:
             seen.append(new.separatrices)
 
@@ -288,7 +288,7 @@ def test_stop_while_quads_are_made(hand: Hand) -> None:
     stop = hand.window.actions_table.by_name["stop"]
     stages = []
 
-    def stop_soon(old: WindowState, new: WindowState) -> None:
+    def stop_soon(old: SessionState, new: SessionState) -> None:
         if new.progress is not None:
             stages.append(new.progress.stage)
             if new.progress.stage == "filling the patches":

@@ -98,7 +98,7 @@ def test_where_the_trouble_is_can_be_seen(hand: Hand, tmp_path: Path) -> None:
     assert hand.window.viewport.isVisible()
     assert hand.shows(PROBLEM, hand.place((0.5, 0.5, 0.0)), line=True)
     assert not hand.shows(PROBLEM, hand.place((0.5, 0.0, 0.0)))
-    hand.window.workspace.set(message=None)  # dismissed
+    hand.window.workspace.dismiss()  # dismissed
     assert hand.window.centre.empty.isVisible()
 
 
@@ -138,7 +138,7 @@ def test_the_panel_says_what_a_click_would_do(hand: Hand) -> None:
     hand.move(QPointF(2.0, 2.0))  # off the surface: nothing would be done
     assert panel.budget.text.text() == "Index sum 0 of 0"
     hand.key(Qt.Key.Key_Escape)
-    assert hand.state.tool is None
+    assert hand.state.added_valence is None
 
 
 def test_the_last_one_of_a_budget_shows_its_defects_before_it_is_placed(hand: Hand) -> None:
@@ -164,11 +164,11 @@ def test_the_last_one_of_a_budget_shows_its_defects_before_it_is_placed(hand: Ha
 def test_any_valence_and_a_second_press_ends(hand: Hand) -> None:
     hand.open("torus")
     hand.key(Qt.Key.Key_N)
-    assert hand.state.tool == 7
+    assert hand.state.added_valence == 7
     hand.key(Qt.Key.Key_5)
-    assert hand.state.tool == 5
+    assert hand.state.added_valence == 5
     hand.key(Qt.Key.Key_5)
-    assert hand.state.tool is None
+    assert hand.state.added_valence is None
 
 
 def test_a_drag_in_the_add_tool_moves_and_adds_nothing(hand: Hand) -> None:

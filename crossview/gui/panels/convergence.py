@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QToolButton, QVBoxLayout, QWi
 from crossview.gui.icons import dot_icon
 from crossview.gui.panels.energy_plot import EnergyPlot
 from crossview.gui.panels.validity import DOT
-from crossview.gui.state import WindowState
+from crossview.session.state import SessionState
 from crossview.view.colors import BAD, GOOD, UNSURE, WAITING
 from crossview.view.texts import aspect, energies
 from crossview.workflow.pipeline import Solution
@@ -50,14 +50,14 @@ class ConvergencePanel(QWidget):
         layout.addWidget(self.button)
         self._say(WAITING, "Nothing is solved yet.", "")
 
-    def show_state(self, old: WindowState, new: WindowState) -> None:
+    def show_state(self, old: SessionState, new: SessionState) -> None:
         """Follow the window's state."""
-        seen = ("document", "solution", "iterate", "trial", "field")
+        seen = ("document", "solution", "iterating", "trial", "field")
         if all(getattr(old, name) is getattr(new, name) for name in seen):
             return
         solution = new.solution
-        if new.iterate is not None:
-            so_far = new.iterate.step.energies
+        if new.iterating is not None:
+            so_far = new.iterating.step.energies
             self.plot.show_energies(so_far)
             self._say(WAITING, "Solving…", energies(so_far))
         elif solution is None:

@@ -14,8 +14,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from crossview.gui.state import WindowState
 from crossview.gui.workspace import Workspace
+from crossview.session.state import SessionState
 from crossview.view.texts import count, degrees
 
 USUAL_ANGLE = 40.0
@@ -66,7 +66,7 @@ class FeaturesBox(QWidget):
         layout.addLayout(line)
         layout.addWidget(self.found)
 
-    def show_state(self, old: WindowState, new: WindowState) -> None:
+    def show_state(self, old: SessionState, new: SessionState) -> None:
         """Follow the window's state."""
         self.mark.setChecked(new.mark_tool is not None)
         seen = ("document", "feature_trial", "field", "base", "mark_tool")
@@ -99,7 +99,7 @@ class FeaturesBox(QWidget):
             self._still.start()
 
 
-def _found(state: WindowState) -> str:
+def _found(state: SessionState) -> str:
     if state.document is None:
         return ""
     trial = state.feature_trial
@@ -117,7 +117,7 @@ def _found(state: WindowState) -> str:
     return text
 
 
-def _forced(state: WindowState) -> int:
+def _forced(state: SessionState) -> int:
     """Return at how many vertices the field shown must turn a corner that no angle asks for."""
     solution = state.solution
     if solution is None or solution.integrated is None or state.field is not solution.field:

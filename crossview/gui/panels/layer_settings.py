@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from PySide6.QtCore import QLocale, QSignalBlocker, QSize, Qt
@@ -56,8 +58,9 @@ class LayerEditor(QWidget):
         for refresh in self._refresh:
             refresh(settings)
 
-    def _set(self, **changes: object) -> None:
-        self._workspace.set_layer(self._name, **changes)
+    def _set(self, **changes: Any) -> None:
+        settings = replace(self._workspace.state.layers[self._name], **changes)
+        self._workspace.set_layer(self._name, settings)
 
     def _add_slider(
         self,

@@ -15,9 +15,9 @@ from PySide6.QtWidgets import (
 
 from crossview.gui.icons import icon
 from crossview.gui.panels.layer_settings import LayerEditor
-from crossview.gui.state import WindowState
 from crossview.gui.workspace import Workspace
 from crossview.scene import LAYERS
+from crossview.session.state import SessionState
 
 ROW, LEAST_ROWS = 24, 5
 
@@ -53,7 +53,7 @@ class LayersPanel(QWidget):
         layout.addWidget(self.settings, 1)
         self.show_state(None, workspace.state)
 
-    def show_state(self, old: WindowState | None, new: WindowState) -> None:
+    def show_state(self, old: SessionState | None, new: SessionState) -> None:
         """Follow the window's state."""
         if old is not None and old.layers is new.layers:
             return

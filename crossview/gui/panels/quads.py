@@ -25,7 +25,7 @@ from crossview.gui.panels.histogram import Histogram
 from crossview.gui.panels.quad_facts import ROWS, quad_facts
 from crossview.gui.panels.scrolling import scrolled
 from crossview.gui.panels.validity import DOT
-from crossview.gui.state import WindowState
+from crossview.session.state import SessionState
 from crossview.view.colors import BAD, GOOD
 from crossview.workflow.quads import DEFAULT_QUADS, MeshOptions
 from solvers.quads.quantization import MOST_QUADS
@@ -80,7 +80,7 @@ class QuadsPanel(QScrollArea):
         self.histogram = Histogram()
         self._filled: TriSurface | None = None
         self._lay_out()
-        self._show(WindowState())
+        self._show(SessionState())
 
     @property
     def options(self) -> MeshOptions:
@@ -93,7 +93,7 @@ class QuadsPanel(QScrollArea):
             smooth=self.smooth.isChecked(),
         )
 
-    def show_state(self, old: WindowState, new: WindowState) -> None:
+    def show_state(self, old: SessionState, new: SessionState) -> None:
         """Follow the window's state."""
         before = None if old.document is None else old.document.surface
         if new.document is not None and new.document.surface is not before:
@@ -107,7 +107,7 @@ class QuadsPanel(QScrollArea):
         self.length_box.setSingleStep(float(f"{length / 10.0:.1g}"))
         self.length_box.setValue(length)
 
-    def _show(self, state: WindowState) -> None:
+    def _show(self, state: SessionState) -> None:
         made = state.made
         quads = made.quads if state.solution is not None else None
         self._form.setVisible(quads is not None)

@@ -24,9 +24,9 @@ from PySide6.QtWidgets import (
 
 from crossview.gui.icons import icon
 from crossview.gui.panels.singularity_model import LOCK, POSITION, VALENCE, SingularityModel
-from crossview.gui.state import WindowState
 from crossview.gui.workspace import Workspace
 from crossview.session.commands import MAX_VALENCE, MIN_VALENCE
+from crossview.session.state import SessionState
 
 
 class ValenceDelegate(QStyledItemDelegate):
@@ -78,13 +78,13 @@ class SingularitiesPanel(QWidget):
 
         self.show_state(workspace.state, workspace.state)
 
-    def show_state(self, old: WindowState, new: WindowState) -> None:
+    def show_state(self, old: SessionState, new: SessionState) -> None:
         """Follow the window's state."""
         if old.singularities is not new.singularities or old.document is not new.document:
             self.model.show_state(new)
         self.hint.setVisible(not new.singularities)
         self.table.setVisible(bool(new.singularities))
-        self._select(new.selected)
+        self._select(new.focus.selected)
 
     def edit(self, row: int) -> None:
         """Edit the valence of singularity `row` in its cell."""
@@ -145,7 +145,7 @@ class SingularitiesPanel(QWidget):
             self._workspace.toggle_lock(index.row())
 
     def _current_changed(self, current: QModelIndex) -> None:
-        if current.isValid() and current.row() != self._workspace.state.selected:
+        if current.isValid() and current.row() != self._workspace.state.focus.selected:
             held = QGuiApplication.keyboardModifiers()
             both = bool(held & Qt.KeyboardModifier.ControlModifier)
             self._workspace.select(current.row(), both)

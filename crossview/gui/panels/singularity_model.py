@@ -8,8 +8,8 @@ import numpy as np
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, Qt
 
 from crossview.gui.icons import dot_icon, icon
-from crossview.gui.state import WindowState
 from crossview.gui.workspace import Workspace
+from crossview.session.state import SessionState
 from crossview.view.colors import valence_color
 from crossview.view.texts import position, signed
 from solvers.singularities.budget import Singularity
@@ -29,7 +29,7 @@ class SingularityModel(QAbstractTableModel):
         self._singularities: tuple[Singularity, ...] = ()
         self._positions: list[str] = []
 
-    def show_state(self, state: WindowState) -> None:
+    def show_state(self, state: SessionState) -> None:
         """Follow the state; the selection stays where the number of rows does."""
         document = state.document
         points = [s.point for s in state.singularities]

@@ -9,9 +9,9 @@ from PySide6.QtWidgets import QFormLayout, QLabel, QScrollArea, QWidget
 from crossview.gui.panels.features import FeaturesBox
 from crossview.gui.panels.scrolling import scrolled
 from crossview.gui.scene_view import poor_faces
-from crossview.gui.state import WindowState
 from crossview.gui.workspace import Workspace
 from crossview.session.document import Document
+from crossview.session.state import SessionState
 from crossview.view.texts import count
 from solvers.surface.trisurface import TriSurface
 
@@ -44,7 +44,7 @@ class SurfacePanel(QScrollArea):
         self.name.setFont(font)
         self.counts, self.topology, self.quality = QLabel(), QLabel(), QLabel()
         self.problems = Hovered()
-        self.problems.hovered.connect(lambda inside: workspace.set(poor=inside))
+        self.problems.hovered.connect(workspace.show_poor)
         self.features = FeaturesBox(workspace)
         self.notes = QLabel()
         self.notes.setWordWrap(True)
@@ -69,7 +69,7 @@ class SurfacePanel(QScrollArea):
         self._form = form
         self._show(None)
 
-    def show_state(self, old: WindowState, new: WindowState) -> None:
+    def show_state(self, old: SessionState, new: SessionState) -> None:
         """Follow the window's state."""
         if old.document is not new.document:
             self._show(new.document)

@@ -17,9 +17,9 @@ from PySide6.QtWidgets import (
 )
 
 from crossview.gui.icons import dot_icon
-from crossview.gui.state import WindowState
 from crossview.gui.workspace import Workspace
 from crossview.session.mending import mendings
+from crossview.session.state import SessionState
 from crossview.view.colors import BAD, GOOD, WAITING, condition_color
 from crossview.view.texts import degrees, signed
 from solvers.remedies import Remedy
@@ -146,10 +146,10 @@ class ValidityPanel(QWidget):
         layout.addLayout(bottom)
         self.show_state(None, workspace.state)
 
-    def show_state(self, old: WindowState | None, new: WindowState) -> None:
+    def show_state(self, old: SessionState | None, new: SessionState) -> None:
         """Follow the window's state."""
         for number, row in enumerate(self.rows):
-            row.pin(number == new.pinned)
+            row.pin(number == new.focus.pinned)
         seen = ("document", "trial", "field", "base", "solution", "moving")
         if old is not None and all(getattr(old, name) is getattr(new, name) for name in seen):
             return
@@ -159,7 +159,7 @@ class ValidityPanel(QWidget):
             self._show_offers(offers)
         self._show_conditions(new)
 
-    def _show_budget(self, state: WindowState) -> None:
+    def _show_budget(self, state: SessionState) -> None:
         budget = state.budget
         if budget is None:
             self.budget.show_verdict(WAITING, "Open a surface to begin", "")
@@ -193,7 +193,7 @@ class ValidityPanel(QWidget):
             self._offers.addWidget(button)
             self.buttons.append(button)
 
-    def _show_conditions(self, state: WindowState) -> None:
+    def _show_conditions(self, state: SessionState) -> None:
         labels: tuple[str, ...] = ()
         if state.base is not None:
             labels = tuple(c.label for c in state.base.solver.holonomy.conditions)
@@ -220,17 +220,11 @@ class ValidityPanel(QWidget):
             number = len(self.rows)
             row = Verdict(condition_color(number))
             row.hovered.connect(
-                lambda inside, number=number: self._workspace.set(
-                    condition=number if inside else None
-                )
+                lambda inside, number=number: self._workspace.point_out(number if inside else None)
             )
-            row.clicked.connect(lambda number=number: self._toggle(number))
+            row.clicked.connect(lambda number=number: self._workspace.toggle_pin(number))
             self._row_layout.insertWidget(number, row)
             self.rows.append(row)
-
-    def _toggle(self, number: int) -> None:
-        pinned = self._workspace.state.pinned
-        self._workspace.set(pinned=None if pinned == number else number)
 
 
 def _button(action: QAction) -> QPushButton:

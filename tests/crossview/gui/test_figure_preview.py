@@ -1,5 +1,6 @@
 """The Export panel shows the figure before it is written, and how large it is on paper."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -23,7 +24,8 @@ def shown(hand: Hand) -> np.ndarray:
 
 def test_it_shows_what_will_be_written(hand: Hand, tmp_path: Path) -> None:
     hand.open("disk-4")
-    hand.window.workspace.set_layer("singularities", size=3.0)
+    large = replace(hand.state.layers["singularities"], size=3.0)
+    hand.window.workspace.set_layer("singularities", large)
     hand.window.workspace.toggle_layer("separatrices")  # they are as blue
     panel = hand.window.export_panel
     assert panel.preview.pixmap().isNull()  # nobody has looked yet
@@ -46,7 +48,7 @@ def test_it_shows_what_will_be_written(hand: Hand, tmp_path: Path) -> None:
     hand.wait(lambda: shown(hand).shape != before.shape or (shown(hand) != before).any())
     panel.width_box.setValue(900)
     hand.wait(lambda: shown(hand).shape[1] < shown(hand).shape[0])
-    hand.window.workspace.set(dark=True)
+    hand.window.workspace.toggle_dark()
     dark = np.round(255 * np.array(rgb(THEMES["dark"].background)))
     hand.wait(lambda: np.abs(shown(hand)[-30, 2, :3] - dark).max() <= 2)
 

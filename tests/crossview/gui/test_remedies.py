@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from crossview.gui.state import Message, ShowWhere
 from crossview.gui.store import offered
+from crossview.session.message import Message, ShowWhere
 from crossview.session.opening import Opening
 from crossview.workflow.quads import MeshOptions
 from solvers.errors import CrossviewError, SurfaceError
@@ -85,8 +85,8 @@ def test_quads_are_not_waited_for_after_a_stop(hand: Hand) -> None:
     ):
         hand.open("disk-4")
         hand.window.workspace.meshing.wait_for(MeshOptions(target_quads=300))
-        hand.window.workspace.set(message=message)
-        hand.window.workspace.set_layer("H", visible=True)
+        hand.window.workspace.update(hand.state.said(message))
+        hand.window.workspace.solving.pursue()
         hand.wait()
         assert (hand.state.made.quads is not None) == waited
 

@@ -134,7 +134,7 @@ def test_the_table_edits_valence_lock_and_selection(hand: Hand) -> None:
     row = [model.index(1, column).data() for column in range(3)]
     assert row == ["2", "3", "+1"]
     table.selectRow(1)
-    assert hand.state.selected == 1
+    assert hand.state.focus.selected == 1
     hand.trigger("edit")
     editor = table.findChild(QSpinBox)
     assert editor is not None
@@ -219,7 +219,7 @@ def test_right_click_offers_the_verbs_of_a_singularity(hand: Hand) -> None:
     hand.release(place, Qt.MouseButton.RightButton)
     menu = QApplication.activePopupWidget()
     texts = [action.text() for action in menu.actions()]
-    assert hand.state.selected == 3
+    assert hand.state.focus.selected == 3
     assert {"Raise valence", "Lower valence", "Locked", "Delete"} <= set(texts)
     next(action for action in menu.actions() if action.text() == "Delete").trigger()
     menu.close()

@@ -12,7 +12,7 @@ from crossview.session.document import Document
 from crossview.session.history import History
 from crossview.session.live import LiveBase
 from crossview.session.methods import Iterate, MethodSolver
-from crossview.session.moving import NATURAL_LABELS, Moving, move_to_validity, place_natural
+from crossview.session.moving import NATURAL_LABELS, Waypoint, move_to_validity, place_natural
 from solvers.fields.natural import NATURAL_METHODS
 from solvers.progress import Progress, run
 
@@ -56,7 +56,7 @@ def test_the_way_to_validity_can_be_drawn(near: Document) -> None:
     base = LiveBase.from_solution(run(MethodSolver().solve(isotropic.problem)).solution)
     seen: list[Progress] = []
     command = run(move_to_validity(isotropic, base), seen.append)
-    way = [step for step in seen if isinstance(step, Moving)]
+    way = [step for step in seen if isinstance(step, Waypoint)]
     assert all(step.field is not None and step.field.surface is base.surface for step in way)
     assert len(way[0].singularities) == len(near.singularities)
     moved = command.apply(isotropic)

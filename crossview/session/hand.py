@@ -1,0 +1,150 @@
+"""What the user's hand is about: the tool it carries, what it selects, what it tries out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from crossview.session.live import LiveEdit
+from crossview.workflow.marking import Marking
+from solvers.features.edges import Features
+from solvers.singularities.budget import Singularity
+from solvers.surface.points import SurfacePoint
+from solvers.surface.triangulation import IntArray
+from solvers.surface.trisurface import TriSurface
+
+OWN_TOOLS = (3, 5, 6, 8)
+"""Valences that have a tool of their own; of all others there is one."""
+
+
+@dataclass(frozen=True)
+class SelectTool:
+    """Clicks select."""
+
+
+@dataclass(frozen=True)
+class AddTool:
+    """Clicks add a singularity of this valence."""
+
+    valence: int
+
+
+@dataclass(frozen=True, eq=False)
+class MarkTool:
+    """Clicks mark feature edges.
+
+    Parameters
+    ----------
+    last : int or None
+        Vertex of the document's surface at the last click.
+    path : (k,) int array or None
+        Vertices along the edges that a click would mark, to be pointed out.
+    """
+
+    last: int | None = None
+    path: IntArray | None = None
+
+
+Tool = SelectTool | AddTool | MarkTool
+
+
+@dataclass(frozen=True)
+class Focus:
+    """What is selected or under the mouse: singularities and holonomy conditions by number.
+
+    Parameters
+    ----------
+    selected : int or None
+        The selected singularity.
+    partner : int or None
+        A second one: see `pair`.
+    hovered : int or None
+        The singularity under the mouse.
+    condition : int or None
+        The condition whose loop is pointed out.
+    pinned : int or None
+        The condition that the guide keeps to: see `followed`.
+    """
+
+    selected: int | None = None
+    partner: int | None = None
+    hovered: int | None = None
+    condition: int | None = None
+    pinned: int | None = None
+
+    @property
+    def pair(self) -> tuple[int, int] | None:
+        """The two singularities that are selected, if two are."""
+        if self.selected is None or self.partner is None or self.partner == self.selected:
+            return None
+        return self.partner, self.selected
+
+    @property
+    def followed(self) -> int | None:
+        """The one condition that the guide shows: pointed at, else pinned; None: all."""
+        return self.pinned if self.condition is None else self.condition
+
+    def on(self, index: int | None, *, both: bool = False) -> Focus:
+        """Return this with `index` selected; with `both` the one before stays selected too."""
+        partner = self.selected if both and index != self.selected else None
+        return replace(self, selected=index, partner=partner)
+
+    def among(self, count: int) -> Focus:
+        """Return what is left of this after an edit that leaves `count` singularities."""
+        gone = self.selected is not None and self.selected >= count
+        selected = None if gone else self.selected
+        return replace(self, selected=selected, partner=None, hovered=None)
+
+
+@dataclass(frozen=True, eq=False)
+class FeatureTrial:
+    """Features that are looked at and not yet taken.
+
+    Parameters
+    ----------
+    marking : Marking
+    features : Features
+        On the document's surface.
+    """
+
+    marking: Marking
+    features: Features
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """Something that would happen: a singularity under the mouse, dragged or not yet placed.
+
+    Parameters
+    ----------
+    singularities : tuple of Singularity
+        On the document's surface, with the change made.
+    index : int
+        Which of them it is about.
+    placed : SurfacePoint
+        The same one on the surface that is shown.
+    surface : TriSurface
+        That surface; another may have come into its place.
+    edit : LiveEdit or None
+        The same on the kept factor, where there is one.
+    drag : bool
+        Whether it is dragged (else it only previews a click of the add tool).
+    """
+
+    singularities: tuple[Singularity, ...]
+    index: int
+    placed: SurfacePoint
+    surface: TriSurface
+    edit: LiveEdit | None
+    drag: bool
+
+    @property
+    def held(self) -> Singularity:
+        """The one that it is about, on the document's surface."""
+        return self.singularities[self.index]
+
+    def moved(self, placed: SurfacePoint, lifted: SurfacePoint) -> Trial:
+        """Return the trial elsewhere: at a point of the surface shown, and of the document's."""
+        singularities = list(self.singularities)
+        singularities[self.index] = replace(self.held, point=lifted)
+        edit = None if self.edit is None else self.edit.moved(self.index, placed)
+        return replace(self, singularities=tuple(singularities), placed=placed, edit=edit)
