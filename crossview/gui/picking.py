@@ -63,7 +63,7 @@ class Picker:
         if not locator.IntersectWithLine(near, far, reach, t, hit, corners, sub_cell, face):
             return None
         r, s = min(max(corners[0], 0.0), 1.0), min(max(corners[1], 0.0), 1.0)
-        point = SurfacePoint(int(face), (max(1.0 - r - s, 0.0), r, min(s, 1.0 - r)))
+        point = self._surface.point(int(face), (max(1.0 - r - s, 0.0), r, min(s, 1.0 - r)))
         return Pick(point, (hit[0], hit[1], hit[2]))
 
     def nearest(

@@ -172,6 +172,7 @@ class Discretization:
         points : sequence of SurfacePoint
             Points of the surface.
         """
+        self.surface.require_own(points)
         faces = np.array([p.face for p in points], dtype=np.int64)
         weights = np.array([p.barycentric for p in points]).reshape(-1, 3)
         own = self.surface.triangulation.corner_positions[faces]

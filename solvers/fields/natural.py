@@ -31,7 +31,6 @@ from solvers.fields.principal import principal_crosses
 from solvers.number_checks import real_number, whole_number
 from solvers.progress import Progress
 from solvers.singularities.budget import Singularity, default_corners
-from solvers.surface.points import SurfacePoint
 from solvers.surface.triangulation import QUARTER, FloatArray, IntArray, next_halfedge, wrap
 from solvers.surface.trisurface import TriSurface
 
@@ -372,7 +371,7 @@ def _as_singularities(
         for v in np.flatnonzero(excess)
     ]
     at_faces = [
-        Singularity(SurfacePoint(int(f), centre), 4 - int(of_faces[f]))
+        Singularity(surface.point(int(f), centre), 4 - int(of_faces[f]))
         for f in np.flatnonzero(of_faces)
     ]
     return (*at_vertices, *at_faces)

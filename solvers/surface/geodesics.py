@@ -45,6 +45,7 @@ def straightest(surface: TriSurface, start: SurfacePoint, vector: FloatArray) ->
     >>> surface.position(end).round(6).tolist()
     [0.5, -0.5, 0.0]
     """
+    surface.require_own([start])
     t = surface.triangulation
     face, weights = start.face, np.array(start.barycentric)
     place, left = weights @ t.corner_positions[face], np.array(vector, dtype=np.float64)
@@ -63,12 +64,12 @@ def straightest(surface: TriSurface, start: SurfacePoint, vector: FloatArray) ->
         side = int(np.argmin(reach))
         step = max(float(reach[side]), 0.0)
         if step >= 1:
-            return _point(face, corners, place + left)
+            return _point(surface, face, place + left)
         place = place + step * left
         h = 3 * face + side
         g = int(t.twin[h])
         if g < 0:
-            return _point(face, corners, place)
+            return _point(surface, face, place)
         left = (1 - step) * left
         along = np.linalg.norm(place - corners[side]) / np.linalg.norm(sides[side])
         angle = t.transport[h]
@@ -77,12 +78,13 @@ def straightest(surface: TriSurface, start: SurfacePoint, vector: FloatArray) ->
         face, entered = g // 3, g % 3
         there = t.corner_positions[face]
         place = there[(entered + 1) % 3] + along * (there[entered] - there[(entered + 1) % 3])
-    return _point(face, t.corner_positions[face], place)
+    return _point(surface, face, place)
 
 
-def _point(face: int, corners: FloatArray, place: FloatArray) -> SurfacePoint:
+def _point(surface: TriSurface, face: int, place: FloatArray) -> SurfacePoint:
+    corners = surface.triangulation.corner_positions[face]
     third = place[1] / corners[2, 1]
     second = (place[0] - third * corners[2, 0]) / corners[1, 0]
     weights = np.maximum([1 - second - third, second, third], 0.0)
     weights /= weights.sum()
-    return SurfacePoint(face, (float(weights[0]), float(weights[1]), float(weights[2])))
+    return surface.point(face, weights.tolist())

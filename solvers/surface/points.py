@@ -1,8 +1,12 @@
-"""The one location type: a point of a surface, for picks, singularities and traces."""
+"""The one location type: a point of a surface, for picks, singularities and traces.
+
+A point knows the triangles it is a point of. What takes points of one surface refuses those of
+another, such as of a refined one, whose triangles have other numbers: they would lie elsewhere.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from solvers.errors import CrossviewError
 from solvers.number_checks import real_numbers, whole_number
@@ -22,6 +26,9 @@ class SurfacePoint:
         The triangle it lies in (any of them, for a point on an edge or a vertex).
     barycentric : tuple of 3 float
         Weights of the triangle's corners, non-negative, with sum 1.
+    mark : int, optional
+        That of the surface, `TriSurface.mark`. Points that surfaces make have it; one made by hand
+        counts as a point of whatever surface it is given to. Points are equal whatever it is.
 
     Raises
     ------
@@ -39,6 +46,7 @@ class SurfacePoint:
 
     face: int
     barycentric: tuple[float, float, float]
+    mark: int | None = field(default=None, compare=False, repr=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "face", whole_number("the triangle of a point", self.face, 0))

@@ -71,11 +71,18 @@ class Refinement:
         ----------
         point : SurfacePoint
             On `surface`.
+
+        Raises
+        ------
+        CrossviewError
+            If it is a point of another surface.
         """
+        position = self.surface.position(point)
         parent = int(self.parent_face[point.face])
         corners = self.coarse.vertices[self.coarse.faces[parent]]
-        weights = barycentric(corners[None], self.surface.position(point))[0]
-        return _surface_point(parent, weights)
+        weights = barycentric(corners[None], position)[0]
+        inside = np.maximum(weights, 0.0)
+        return self.coarse.point(parent, (inside / inside.sum()).tolist())
 
 
 def refine_at(
@@ -163,6 +170,7 @@ class _Mesh:
     """The arrays while they change, and where the points are among them."""
 
     def __init__(self, surface: TriSurface, points: Sequence[SurfacePoint]) -> None:
+        surface.require_own(points)
         self.vertices = surface.vertices
         self.faces = surface.faces
         self.parent = np.arange(surface.n_faces)
@@ -350,9 +358,3 @@ def _snapped(weights: FloatArray, corners: FloatArray) -> FloatArray:
     on_side = np.zeros(3)
     on_side[tail], on_side[head] = 1 - along, along
     return on_side
-
-
-def _surface_point(face: int, weights: FloatArray) -> SurfacePoint:
-    inside = np.maximum(weights, 0.0)
-    inside /= inside.sum()
-    return SurfacePoint(face, (float(inside[0]), float(inside[1]), float(inside[2])))

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import cached_property
+from hashlib import blake2b
 
 import numpy as np
 import numpy.typing as npt
@@ -221,6 +222,55 @@ class TriSurface:
         squares = (self.triangulation.lengths**2).sum(axis=1)
         return np.asarray(4 * np.sqrt(3) * self.face_areas / squares)
 
+    @cached_property
+    def mark(self) -> int:
+        """What tells the points of this surface from those of others: a digest of its triangles.
+
+        The same for surfaces whose vertices alone differ: there the same points are meant.
+        """
+        return int.from_bytes(blake2b(self.faces.tobytes(), digest_size=8).digest(), "big")
+
+    def point(self, face: int, barycentric: Sequence[float]) -> SurfacePoint:
+        """Return a point of this surface.
+
+        Parameters
+        ----------
+        face : int
+            The triangle it lies in.
+        barycentric : sequence of 3 float
+            Weights of the triangle's corners, non-negative, with sum 1.
+
+        Raises
+        ------
+        CrossviewError
+            If there is no such triangle, or the weights are no such numbers.
+        """
+        a, b, c = barycentric
+        made = SurfacePoint(face, (float(a), float(b), float(c)), self.mark)
+        self.require_own([made])
+        return made
+
+    def require_own(self, points: Iterable[SurfacePoint]) -> None:
+        """Refuse points of other surfaces.
+
+        Parameters
+        ----------
+        points : iterable of SurfacePoint
+            On this surface; those made by hand count as such if it has their triangles.
+
+        Raises
+        ------
+        CrossviewError
+            If one is a point of another surface, or lies in no triangle of this one.
+        """
+        for point in points:
+            if point.mark not in (None, self.mark) or point.face >= self.n_faces:
+                raise CrossviewError(
+                    "a point of another surface is given",
+                    f"triangle {point.face}; this surface has {self.n_faces}",
+                    "take it to this one first, with Refinement.lift or closest_point",
+                )
+
     def position(self, point: SurfacePoint) -> FloatArray:
         """Return the (3,) coordinates of a surface point.
 
@@ -228,7 +278,13 @@ class TriSurface:
         ----------
         point : SurfacePoint
             On this surface.
+
+        Raises
+        ------
+        CrossviewError
+            If it is a point of another surface.
         """
+        self.require_own([point])
         return np.asarray(np.asarray(point.barycentric) @ self.vertices[self.faces[point.face]])
 
     def positions(self, points: Sequence[SurfacePoint]) -> FloatArray:
@@ -238,6 +294,11 @@ class TriSurface:
         ----------
         points : sequence of SurfacePoint
             On this surface, any number.
+
+        Raises
+        ------
+        CrossviewError
+            If one is a point of another surface.
         """
         return np.array([self.position(point) for point in points]).reshape(-1, 3)
 
@@ -257,7 +318,7 @@ class TriSurface:
         h = int(self._halfedge_from[whole_number("the vertex", vertex, 0, self.n_vertices - 1)])
         weights = [0.0, 0.0, 0.0]
         weights[h % 3] = 1.0
-        return SurfacePoint(h // 3, (weights[0], weights[1], weights[2]))
+        return self.point(h // 3, weights)
 
     def nearest_vertex(self, point: SurfacePoint) -> int:
         """Return the corner of a point's triangle that the point is at, or weighs most.
@@ -266,7 +327,13 @@ class TriSurface:
         ----------
         point : SurfacePoint
             A point of the surface.
+
+        Raises
+        ------
+        CrossviewError
+            If it is a point of another surface.
         """
+        self.require_own([point])
         return int(self.faces[point.face, int(np.argmax(point.barycentric))])
 
     @cached_property
@@ -297,8 +364,7 @@ class TriSurface:
         weights = closest_barycentric(self.vertices[self.faces[candidates]], x)
         places = np.einsum("ki,kij->kj", weights, self.vertices[self.faces[candidates]])
         best = int(np.argmin(np.linalg.norm(places - x, axis=1)))
-        w = weights[best]
-        return SurfacePoint(int(candidates[best]), (float(w[0]), float(w[1]), float(w[2])))
+        return self.point(int(candidates[best]), weights[best].tolist())
 
 
 def barycentric(triangles: FloatArray, position: FloatArray) -> FloatArray:

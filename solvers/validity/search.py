@@ -14,7 +14,6 @@ from solvers.progress import Progress
 from solvers.singularities.budget import Singularity
 from solvers.singularities.spacing import Spacing
 from solvers.surface.geodesics import straightest
-from solvers.surface.points import SurfacePoint
 from solvers.surface.refinement import Refinement, refine_at
 from solvers.surface.triangulation import QUARTER, FloatArray, wrap
 from solvers.surface.trisurface import TriSurface
@@ -245,7 +244,7 @@ class Search:
         owner_of[vertices] = np.arange(len(vertices))
         faces, corner = np.nonzero(owner_of[fine.faces] >= 0)
         owner = owner_of[fine.faces[faces, corner]]
-        points = [SurfacePoint(face, (1 / 3, 1 / 3, 1 / 3)) for face in faces.tolist()]
+        points = [fine.point(face, (1 / 3, 1 / 3, 1 / 3)) for face in faces.tolist()]
         frames = np.stack(fine.face_frames, axis=1)[faces]
         in_space = np.einsum("cpd,pdx->cpx", fresh.gradients(points), frames)
         in_space *= fine.face_areas[faces][:, None]
