@@ -71,5 +71,5 @@ $(VENV)/installed-%: pyproject.toml | $(VENV)/bin/python
 	@touch $@ $(VENV)/installed
 
 clean:
-	rm -rf $(VENV) build dist docs/written *.egg-info .benchmarks .import_linter_cache .mypy_cache .pytest_cache .ruff_cache $(PICTURE)
+	rm -rf $(VENV) build dist docs/written *.egg-info .benchmarks .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache $(PICTURE)
 	find crossview solvers resources tests -name __pycache__ -prune -exec rm -rf {} +

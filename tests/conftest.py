@@ -1,14 +1,21 @@
-"""What stays together where the tests run on several workers."""
+"""What stays together where the tests run on several workers, and how Hypothesis draws.
+
+Its examples are the same at each run; `pytest --hypothesis-profile default` draws new ones.
+"""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 import pytest
+from hypothesis import settings
 
 if TYPE_CHECKING:
     from xdist.remote import Producer
     from xdist.scheduler import LoadScopeScheduling
+
+settings.register_profile("repeatable", derandomize=True, deadline=None, max_examples=30)
+settings.load_profile("repeatable")
 
 WINDOWS = ("tests/stories/", "tests/crossview/gui/")
 
