@@ -8,6 +8,8 @@ from crossview.cases.compounds import Either, ListOf
 from crossview.cases.json_values import known_word
 from crossview.cases.records import documented, key
 from crossview.cases.scalars import File, Flag, Number, Word
+from solvers.fields.verdict import TOLERANCE_DEGREES
+from solvers.surface.refinement import LEVELS
 
 METHODS = ("isotropic", "aligned", "anisotropic", "alternating")
 """The methods there are, the default first."""
@@ -93,14 +95,14 @@ class Options:
     """What may be tuned."""
 
     tolerance_degrees: float = field(
-        default=0.01,
+        default=TOLERANCE_DEGREES,
         metadata=key(
             Number(above=0, most=45),
             "Largest holonomy defect of a configuration called valid, degrees.",
         ),
     )
     refine: int = field(
-        default=3,
+        default=LEVELS,
         metadata=key(
             Number(whole=True, least=0, most=MOST_REFINE),
             "Levels of graded refinement around each singularity; 0 only inserts it as a vertex.",

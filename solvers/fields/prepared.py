@@ -17,11 +17,8 @@ from solvers.fields.isotropic import IsotropicSolver
 from solvers.singularities.budget import Singularity, default_corners
 from solvers.surface.delaunay import TOLERANCE
 from solvers.surface.points import SurfacePoint
-from solvers.surface.refinement import Refinement, refine_at, refine_everywhere
+from solvers.surface.refinement import LEVELS, Refinement, refine_at, refine_everywhere
 from solvers.surface.trisurface import TriSurface
-
-LEVELS = 3
-"""How many times edges are halved around singularities, if nothing else is said. Chosen."""
 
 
 @dataclass(frozen=True, eq=False)

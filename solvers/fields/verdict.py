@@ -13,6 +13,9 @@ from solvers.fields.holonomy import Holonomy
 from solvers.remedies import ANISOTROPIC, MAKE_VALID, Remedy, in_words
 from solvers.surface.triangulation import BoolArray, FloatArray
 
+TOLERANCE_DEGREES = 0.01
+"""Holonomy defects and misalignments below are none, unless a case says otherwise. Chosen."""
+
 INTEGRABLE = 1e-8
 """E below which nothing but rounding is left. Chosen, far above what solves leave, some 1e-14."""
 
@@ -58,7 +61,7 @@ class Limits:
     [True, False]
     """
 
-    angle: float = float(np.radians(0.01))
+    angle: float = float(np.radians(TOLERANCE_DEGREES))
     energy: float = INTEGRABLE
 
     @classmethod

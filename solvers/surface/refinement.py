@@ -26,6 +26,9 @@ triangle.
 From double precision: nearer ones would make triangles too flat for their angles to be known.
 """
 
+LEVELS = 3
+"""How many times edges are halved around singularities, if nothing else is said. Chosen."""
+
 RINGS = 2
 """How many rings of triangles around a point are split at each level. Chosen."""
 
@@ -88,7 +91,7 @@ class Refinement:
 def refine_at(
     surface: TriSurface,
     points: Sequence[SurfacePoint],
-    levels: int = 3,
+    levels: int = LEVELS,
     feature_edges: IntArray | None = None,
 ) -> Refinement:
     """Return the surface with vertices at the given points and smaller triangles around them.

@@ -22,6 +22,7 @@ from solvers.remedies import ANISOTROPIC, Remedy
 from solvers.singularities.budget import Singularity, require_budget
 from solvers.singularities.far_points import far_points
 from solvers.singularities.pairs import pair_at
+from solvers.surface.refinement import LEVELS
 from solvers.surface.triangulation import QUARTER, FloatArray
 from solvers.surface.trisurface import TriSurface
 from solvers.validity.search import Blocked, Moved, Obstacle, Search
@@ -111,7 +112,7 @@ def make_valid(
     surface: TriSurface,
     singularities: Sequence[Singularity],
     corners: Mapping[int, int] | None = None,
-    levels: int = 3,
+    levels: int = LEVELS,
 ) -> Generator[Progress, None, Moved]:
     """Move the unlocked singularities until every holonomy defect is below 1e-6 degrees.
 
