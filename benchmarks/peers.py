@@ -30,7 +30,7 @@ from solvers.primitives import BUILTIN
 from solvers.progress import run
 from solvers.quads.quadmesh import scaled_jacobian
 from solvers.singularities.budget import Singularity
-from solvers.singularities.far_points import far_points
+from solvers.singularities.farthest import far_points
 from solvers.surface.trisurface import TriSurface
 
 BEGIN, END = "<!-- peers -->", "<!-- end of peers -->"

@@ -27,7 +27,7 @@ from solvers.fields.prepared import prepare
 from solvers.primitives import BUILTIN
 from solvers.progress import run
 from solvers.singularities.budget import Singularity, default_corners
-from solvers.singularities.far_points import far_points
+from solvers.singularities.farthest import far_points
 from solvers.surface.trisurface import TriSurface
 from tests.solvers.suite import separated
 

@@ -19,7 +19,7 @@ from crossview.session.pairing import distribute
 from solvers.progress import Progress
 from solvers.remedies import Remedy, UseMethod
 from solvers.singularities.budget import Singularity
-from solvers.singularities.far_points import far_points
+from solvers.singularities.farthest import far_points
 from solvers.singularities.remedies import AddMissing, ChangeOne, RemoveOne
 from solvers.validity.attempts import PlaceAnew
 

@@ -10,7 +10,7 @@ from crossview.session.commands import AddSingularities, Command, ReplaceSingula
 from crossview.session.document import Document
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.progress import Progress
-from solvers.singularities.far_points import far_points
+from solvers.singularities.farthest import far_points
 from solvers.singularities.pairs import merged, pair_at, split
 from solvers.singularities.symmetry import mirrored, rotated
 from solvers.surface.points import SurfacePoint

@@ -9,7 +9,7 @@ from solvers.singularities.budget import (
     index_budget,
     require_budget,
 )
-from solvers.singularities.far_points import far_points
+from solvers.singularities.farthest import far_points
 from solvers.singularities.pairs import merged, pair_at, split
 from solvers.singularities.remedies import AddMissing, ChangeOne, RemoveOne
 from solvers.singularities.symmetry import mirrored, rotated

@@ -224,7 +224,7 @@ class TriSurface:
 
     @cached_property
     def mark(self) -> int:
-        """What tells the points of this surface from those of others: a digest of its triangles.
+        """What tells the points of this surface from those of others, a digest of its triangles.
 
         The same for surfaces whose vertices alone differ: there the same points are meant.
         """

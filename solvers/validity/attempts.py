@@ -20,7 +20,7 @@ from solvers.fields.isotropic import IsotropicSolver
 from solvers.progress import Progress, relayed
 from solvers.remedies import ANISOTROPIC, Remedy
 from solvers.singularities.budget import Singularity, require_budget
-from solvers.singularities.far_points import far_points
+from solvers.singularities.farthest import far_points
 from solvers.singularities.pairs import pair_at
 from solvers.surface.refinement import LEVELS
 from solvers.surface.triangulation import QUARTER, FloatArray

@@ -13,7 +13,7 @@ from crossview.session.mending import mend, mendings
 from solvers.progress import run
 from solvers.remedies import ANISOTROPIC, RepairSurface
 from solvers.singularities.budget import Singularity
-from solvers.singularities.far_points import far_points
+from solvers.singularities.farthest import far_points
 from solvers.validity.attempts import ValidityError, make_valid
 
 

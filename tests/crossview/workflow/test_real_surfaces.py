@@ -13,7 +13,7 @@ import pyvista as pv
 from crossview.cases.model import Case
 from crossview.workflow.problem import Problem
 from solvers.progress import run
-from solvers.singularities.far_points import far_points
+from solvers.singularities.farthest import far_points
 from tests.command_line import Crossview
 from tests.real_surfaces import PATHS, REAL
 

@@ -13,7 +13,7 @@ from solvers.primitives import BUILTIN
 from solvers.progress import Progress, run
 from solvers.remedies import ANISOTROPIC, UseMethod
 from solvers.singularities.budget import Singularity, default_corners
-from solvers.singularities.far_points import far_points
+from solvers.singularities.farthest import far_points
 from solvers.surface.geodesics import straightest
 from solvers.surface.points import SurfacePoint
 from solvers.surface.refinement import refine_at
