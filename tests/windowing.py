@@ -218,6 +218,8 @@ def settings(tmp_path: Path) -> None:
 @pytest.fixture
 def nothing_left(app: QApplication) -> Iterator[None]:
     """Fail when a test leaves something behind."""
+    gc.collect()
+    gc.freeze()  # what there is already need not be looked through
     before = {id(thing) for thing in living(app)}
     yield
     app.sendPostedEvents(None, QEvent.Type.DeferredDelete)

@@ -13,10 +13,10 @@ from tests.windowing import Hand
 
 @pytest.fixture
 def large_case(tmp_path: Path) -> str:
-    """A torus of some 40 000 triangles with two pairs of singularities on top."""
+    """A torus of some 20 000 triangles with two pairs of singularities on top."""
     places = [(1.0, 0.0, 0.4), (-1.0, 0.0, 0.4), (0.0, 1.0, 0.4), (0.0, -1.0, 0.4)]
     case = {
-        "surface": {"builtin": "torus", "n": 200},
+        "surface": {"builtin": "torus", "n": 144},
         "singularities": [
             {"position": place, "valence": valence}
             for place, valence in zip(places, (3, 5, 3, 5), strict=True)
