@@ -8,7 +8,7 @@ table look-up (the holonomy defects).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator
+from collections.abc import Generator
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -19,10 +19,10 @@ from crossview.workflow.marking import Marking
 from crossview.workflow.pipeline import Solution
 from solvers.fields.crossfield import CrossField
 from solvers.fields.isotropic import IsotropicSolver
-from solvers.fields.prepared import PreparedSurface
 from solvers.progress import Progress
 from solvers.singularities.budget import Singularity
 from solvers.surface.points import SurfacePoint
+from solvers.surface.refinement import Refinement
 from solvers.surface.trisurface import TriSurface
 
 
@@ -32,52 +32,27 @@ class LiveBase:
 
     Parameters
     ----------
-    document_surface : TriSurface
-        The surface it serves.
+    refinement : Refinement
+        Of the document's surface; it takes points from one to the other.
     solver : IsotropicSolver
-        On `surface`.
-    lift : callable
-        Takes a point of `surface` to the same point of `document_surface`.
+        On the refined surface.
     marking : Marking
         The features that `solver` knows.
-    known : dict of SurfacePoint to SurfacePoint
-        Where points of `document_surface` are on `surface`; grows as points are located.
     """
 
-    document_surface: TriSurface
+    refinement: Refinement
     solver: IsotropicSolver
-    lift: Callable[[SurfacePoint], SurfacePoint]
     marking: Marking = field(default_factory=Marking)
-    known: dict[SurfacePoint, SurfacePoint] = field(default_factory=dict)
 
     @classmethod
     def from_solution(cls, solution: Solution) -> LiveBase:
         """Keep the factor of `solution`."""
-        return cls.prepared(solution.prepared, solution.solver, solution.problem.marking)
-
-    @classmethod
-    def prepared(
-        cls, prepared: PreparedSurface, solver: IsotropicSolver, marking: Marking
-    ) -> LiveBase:
-        """Keep a factor of a surface that was prepared for singularities."""
-        placed = (s.point for s in prepared.singularities)
-        known = dict(zip(prepared.places, placed, strict=True))
-        refinement = prepared.refinement
-        return cls(refinement.coarse, solver, refinement.lift, marking, known)
+        return cls(solution.prepared.refinement, solution.solver, solution.problem.marking)
 
     @property
     def surface(self) -> TriSurface:
         """The surface that is picked on and solved on."""
-        return self.solver.surface
-
-    def locate(self, point: SurfacePoint) -> SurfacePoint:
-        """Return where `point` of the document's surface is on `surface`."""
-        if self.surface is self.document_surface:
-            return point
-        if point not in self.known:
-            position = self.document_surface.position(point)
-            self.known[point] = self.surface.closest_point(position)
-        return self.known[point]
+        return self.refinement.surface
 
 
 def prepare(document: Document) -> Generator[Progress, None, LiveBase]:
@@ -87,7 +62,7 @@ def prepare(document: Document) -> Generator[Progress, None, LiveBase]:
     solver = IsotropicSolver(document.surface, document.corners, features=features)
     yield Progress("preparing the holonomy conditions", 0.6)
     solver.holonomy.defects(())
-    return LiveBase(document.surface, solver, lambda point: point, document.problem.marking)
+    return LiveBase(Refinement.none(document.surface), solver, document.problem.marking)
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +83,7 @@ class LiveEdit:
     @classmethod
     def start(cls, document: Document, base: LiveBase) -> LiveEdit:
         """Place the singularities of `document` on the surface of `base`."""
-        placed = (replace(s, point=base.locate(s.point)) for s in document.singularities)
+        placed = (replace(s, point=base.refinement.locate(s.point)) for s in document.singularities)
         return cls(base, tuple(placed))
 
     def moved(self, index: int, point: SurfacePoint) -> LiveEdit:

@@ -60,7 +60,7 @@ class MethodSolver:
             if not isinstance(step, FieldStep):
                 return step
             aligned = step.so_far.aligned
-            base = base or LiveBase.prepared(aligned.prepared, aligned.solver, problem.marking)
+            base = base or LiveBase(aligned.prepared.refinement, aligned.solver, problem.marking)
             field = None
             if time.monotonic() - drawn >= DRAWN_EVERY:
                 field = with_directions(step.so_far.field)

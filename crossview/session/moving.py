@@ -115,7 +115,7 @@ def place_natural(
 def _field(base: LiveBase | None, singularities: tuple[Singularity, ...]) -> CrossField | None:
     if base is None:
         return None
-    placed = tuple(replace(s, point=base.locate(s.point)) for s in singularities)
+    placed = tuple(replace(s, point=base.refinement.locate(s.point)) for s in singularities)
     try:
         return with_directions(base.solver.solve(placed))
     except CrossviewError:  # on their way they may be where this surface has no field

@@ -229,7 +229,7 @@ class SessionState:
         if document is None or surface is None or document.singularities[index].locked:
             return self
         point = document.singularities[index].point
-        placed = point if self.base is None else self.base.locate(point)
+        placed = point if self.base is None else self.base.refinement.locate(point)
         edit = self._edit(document)
         trial = Trial(document.singularities, index, placed, surface, edit, drag=True)
         return replace(self, trial=trial, focus=replace(self.focus, selected=index))
@@ -465,4 +465,4 @@ class SessionState:
 
     def lifted(self, point: SurfacePoint) -> SurfacePoint:
         """Return a point of the shown surface as one of the document's."""
-        return point if self.base is None else self.base.lift(point)
+        return point if self.base is None else self.base.refinement.lift(point)

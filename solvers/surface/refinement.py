@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -17,7 +18,7 @@ from solvers.number_checks import whole_number
 from solvers.surface.delaunay import DelaunayTriangulation
 from solvers.surface.points import SurfacePoint
 from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
-from solvers.surface.trisurface import TriSurface, barycentric
+from solvers.surface.trisurface import TriSurface, barycentric, closest_barycentric
 
 SNAP = 1e-5
 """Distance from an edge or vertex below which a point is moved onto it, in longest edges of the
@@ -47,6 +48,8 @@ class Refinement:
         The vertex of the refined surface at each of the inserted points.
     parent_face : (m,) int array
         The original triangle that each refined triangle is part of.
+    points : tuple of SurfacePoint, optional
+        The inserted points, on the original surface.
 
     Examples
     --------
@@ -60,12 +63,66 @@ class Refinement:
     >>> lifted = refinement.lift(fine)
     >>> np.allclose(refinement.coarse.position(lifted), refinement.surface.position(fine))
     True
+    >>> refinement.surface.nearest_vertex(refinement.locate(lifted))
+    9
     """
 
     coarse: TriSurface
     surface: TriSurface
     vertices: IntArray
     parent_face: IntArray
+    points: tuple[SurfacePoint, ...] = ()
+
+    @classmethod
+    def none(cls, surface: TriSurface) -> Refinement:
+        """Return the surface as a refinement of itself.
+
+        Parameters
+        ----------
+        surface : TriSurface
+            The surface.
+        """
+        return cls(surface, surface, np.empty(0, dtype=np.int64), np.arange(surface.n_faces))
+
+    def locate(self, point: SurfacePoint) -> SurfacePoint:
+        """Return a point of the original surface as a point of the refined one.
+
+        Parameters
+        ----------
+        point : SurfacePoint
+            On `coarse`; one that was inserted becomes its vertex.
+
+        Raises
+        ------
+        CrossviewError
+            If it is a point of another surface.
+        """
+        position = self.coarse.position(point)
+        if self.surface is self.coarse:
+            return point
+        if point in self._inserted:
+            return self.surface.point_at_vertex(self._inserted[point])
+        first, last = self._first_part[point.face : point.face + 2]
+        parts = self._parts[first:last]
+        corners = self.surface.vertices[self.surface.faces[parts]]
+        weights = closest_barycentric(corners, position)
+        places = np.einsum("ki,kij->kj", weights, corners)
+        nearest = int(np.argmin(np.linalg.norm(places - position, axis=1)))
+        return self.surface.point(int(parts[nearest]), weights[nearest].tolist())
+
+    @cached_property
+    def _inserted(self) -> dict[SurfacePoint, int]:
+        return dict(zip(self.points, self.vertices.tolist(), strict=True))
+
+    @cached_property
+    def _parts(self) -> IntArray:
+        """The refined triangles, those of each original triangle together."""
+        return np.argsort(self.parent_face, kind="stable")
+
+    @cached_property
+    def _first_part(self) -> IntArray:
+        counts = np.bincount(self.parent_face, minlength=self.coarse.n_faces)
+        return np.concatenate([[0], np.cumsum(counts)])
 
     def lift(self, point: SurfacePoint) -> SurfacePoint:
         """Return a point of the refined surface as a point of the original.
@@ -81,6 +138,8 @@ class Refinement:
             If it is a point of another surface.
         """
         position = self.surface.position(point)
+        if self.surface is self.coarse:
+            return point
         parent = int(self.parent_face[point.face])
         corners = self.coarse.vertices[self.coarse.faces[parent]]
         weights = barycentric(corners[None], position)[0]
@@ -139,7 +198,7 @@ def refine_at(
     inserted = np.array([mesh.insert(i) for i in range(len(points))], dtype=np.int64)
     mesh.flip_inside_parents()
     refined = TriSurface(mesh.vertices, mesh.faces, trusted=True)
-    return Refinement(surface, refined, inserted, mesh.parent)
+    return Refinement(surface, refined, inserted, mesh.parent, tuple(points))
 
 
 def refine_everywhere(surface: TriSurface) -> Refinement:

@@ -59,7 +59,7 @@ def test_stop_keeps_what_was_there_and_solve_goes_on(hand: Hand, large_case: str
     workspace.changed.connect(stop_at_factor)
     point = hand.state.document.surface.closest_point((0.0, 1.2, 0.3))
     workspace.trials.start_drag(2)
-    workspace.trials.drag_to(hand.state.base.locate(point))
+    workspace.trials.drag_to(hand.state.base.refinement.locate(point))
     workspace.trials.drop()
     hand.wait(lambda: hand.state.message is not None)
     workspace.changed.disconnect(stop_at_factor)

@@ -63,8 +63,8 @@ def test_dragging_follows_the_closed_form(document: Document, base: LiveBase) ->
 def test_points_go_to_the_refined_surface_and_back(document: Document, base: LiveBase) -> None:
     assert base.surface.n_faces > document.surface.n_faces
     for singularity in document.singularities:
-        there = base.locate(singularity.point)
-        back = base.lift(there)
+        there = base.refinement.locate(singularity.point)
+        back = base.refinement.lift(there)
         np.testing.assert_allclose(
             document.surface.position(back),
             document.surface.position(singularity.point),

@@ -35,7 +35,7 @@ def test_iterates_are_drawn_on_what_they_are_solved_on(near: Document) -> None:
     assert solved.solution.field.convergence.energies[0] == first.step.energies[0]
     assert solved.start is first.start
     for given, placed in zip(near.singularities, solved.solution.singularities, strict=True):
-        assert first.base.locate(given.point) == placed.point
+        assert first.base.refinement.locate(given.point) == placed.point
 
 
 def test_what_is_stopped_is_kept_and_said_to_be_no_more(near: Document) -> None:

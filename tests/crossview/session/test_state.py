@@ -203,7 +203,7 @@ def test_indices_that_do_not_add_up_have_no_field(solved: SessionState, document
     assert refused.focus == Focus(pinned=0)  # what was selected is gone
     assert refused.base is solved.base  # what would mend it can be tried
     mended = replace(refused, tool=AddTool(document.singularities[7].valence))
-    tried = mended.previewed(refused.base.locate(document.singularities[7].point))
+    tried = mended.previewed(refused.base.refinement.locate(document.singularities[7].point))
     assert tried.budget.satisfied
     np.testing.assert_allclose(known(tried.defects), known(solved.defects), atol=1e-6)
     assert tried.previewed(None).trial is None

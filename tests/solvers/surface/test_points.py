@@ -15,7 +15,7 @@ from solvers.singularities.budget import Singularity
 from solvers.singularities.pairs import pair_at
 from solvers.surface.geodesics import straightest
 from solvers.surface.points import SurfacePoint
-from solvers.surface.refinement import refine_at, refine_everywhere
+from solvers.surface.refinement import Refinement, refine_at, refine_everywhere
 from solvers.surface.trisurface import TriSurface
 
 COARSE = BUILTIN["sphere"](subdivisions=2)
@@ -54,6 +54,38 @@ def test_points_are_lifted_from_the_finer_surface_alone() -> None:
     assert COARSE.position(lifted) == pytest.approx(FINE.position(ON_FINE), abs=1e-12)
     with pytest.raises(CrossviewError, match="another surface"):
         REFINEMENT.lift(lifted)
+
+
+def test_points_go_to_the_refined_surface_and_back() -> None:
+    rng = np.random.default_rng(0)
+    given = [
+        COARSE.point(int(face), rng.dirichlet([1, 1, 1]).tolist())
+        for face in rng.integers(0, COARSE.n_faces, 30)
+    ]
+    for refinement in (REFINEMENT, refine_at(COARSE, given[:3], 3), Refinement.none(COARSE)):
+        for point in given:
+            there = refinement.locate(point)
+            refinement.surface.require_own([there])
+            back = refinement.lift(there)
+            for found in (refinement.surface.position(there), COARSE.position(back)):
+                assert found == pytest.approx(COARSE.position(point), abs=1e-9)
+
+
+def test_points_that_were_inserted_are_located_at_their_vertices() -> None:
+    at_vertex = COARSE.point_at_vertex(7)
+    next_to_it = COARSE.point(
+        at_vertex.face, np.clip(at_vertex.barycentric, 1e-7, 1 - 2e-7).tolist()
+    )
+    inside = COARSE.point(11, (0.2, 0.3, 0.5))
+    refinement = refine_at(COARSE, [next_to_it, inside], 2)
+    for point, vertex in zip((next_to_it, inside), refinement.vertices.tolist(), strict=True):
+        assert refinement.locate(point) == refinement.surface.point_at_vertex(vertex)
+
+
+def test_points_of_another_surface_are_not_located() -> None:
+    for refinement in (REFINEMENT, Refinement.none(COARSE)):
+        with pytest.raises(CrossviewError, match="another surface"):
+            refinement.locate(ON_FINE)
 
 
 def test_every_point_that_a_surface_makes_is_its_own() -> None:
