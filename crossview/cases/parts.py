@@ -8,8 +8,8 @@ from crossview.cases.compounds import Either, ListOf
 from crossview.cases.json_values import known_word
 from crossview.cases.records import documented, key
 from crossview.cases.scalars import File, Flag, Number, Word
-from solvers.fields.verdict import TOLERANCE_DEGREES
-from solvers.surface.refinement import LEVELS
+from solvers.fields import TOLERANCE_DEGREES
+from solvers.surface import LEVELS
 
 METHODS = ("isotropic", "aligned", "anisotropic", "alternating")
 """The methods there are, the default first."""

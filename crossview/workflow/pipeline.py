@@ -27,7 +27,7 @@ from solvers.fields import (
     judge,
     prepare,
 )
-from solvers.layouts.gauge import in_joining_gauge, joined_field
+from solvers.layouts import in_joining_gauge, joined_field
 from solvers.progress import Progress, between
 from solvers.singularities import require_budget
 from solvers.surface import FloatArray

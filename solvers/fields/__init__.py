@@ -17,12 +17,13 @@ from solvers.fields.natural import (
 )
 from solvers.fields.prepared import Operators, PreparedSurface, prepare
 from solvers.fields.sizes import size_map
-from solvers.fields.verdict import Limits, Verdict, judge
+from solvers.fields.verdict import TOLERANCE_DEGREES, Limits, Verdict, judge
 
 __all__ = [
     "CURVATURE_WEIGHT",
     "NATURAL_ALIGNMENTS",
     "NATURAL_METHODS",
+    "TOLERANCE_DEGREES",
     "AlignedField",
     "Condition",
     "Convergence",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from solvers.layouts.errors import LayoutError
-from solvers.layouts.gauge import joined_field
+from solvers.layouts.gauge import in_joining_gauge, joined_field
 from solvers.layouts.layout import QuadLayout, quad_layout
 from solvers.layouts.patches import PatchMesh
 from solvers.layouts.separatrices import Separatrices, field_separatrices
@@ -16,6 +16,7 @@ __all__ = [
     "Separatrices",
     "TMesh",
     "field_separatrices",
+    "in_joining_gauge",
     "joined_field",
     "quad_layout",
 ]

@@ -43,6 +43,24 @@ def in_joining_gauge(
         Returned as it is where something fixes the direction of its crosses.
     singularities : sequence of Singularity
         On its surface.
+
+    Returns
+    -------
+    IsotropicSolver
+        With the same factors.
+
+    Examples
+    --------
+    >>> from itertools import product
+    >>> from solvers import IsotropicSolver, Singularity
+    >>> from solvers.layouts import field_separatrices, in_joining_gauge
+    >>> from solvers.primitives import sphere
+    >>> surface = sphere(subdivisions=3)
+    >>> corners = product((-0.6, 0.6), repeat=3)
+    >>> cube = [Singularity(surface.closest_point(corner), 3) for corner in corners]
+    >>> solver = in_joining_gauge(IsotropicSolver(surface), cube)
+    >>> len(field_separatrices(solver.solve(cube)).ends)  # the edges of the cube
+    12
     """
     if not solver.gauge_free or not singularities:
         return solver

@@ -8,7 +8,7 @@ from solvers.surface.edge_paths import EdgePaths
 from solvers.surface.geodesics import straightest
 from solvers.surface.homology import HandleLoops, handle_loops
 from solvers.surface.points import SurfacePoint
-from solvers.surface.refinement import Refinement, refine_at, refine_everywhere
+from solvers.surface.refinement import LEVELS, Refinement, refine_at, refine_everywhere
 from solvers.surface.triangulation import (
     QUARTER,
     BoolArray,
@@ -20,6 +20,7 @@ from solvers.surface.trisurface import TriSurface, barycentric
 from solvers.surface.validation import array_problems, problems
 
 __all__ = [
+    "LEVELS",
     "QUARTER",
     "BoolArray",
     "DelaunayTriangulation",
