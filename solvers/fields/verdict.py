@@ -219,7 +219,9 @@ def _judge_alignment(field: CrossField, limits: Limits) -> Verdict | None:
 
 def _judge_integrability(field: CrossField, limits: Limits) -> Verdict | None:
     if field.energy <= limits.energy:
-        return None
+        if field.convergence.converged:
+            return None
+        return Verdict("suspect", f"The iteration has not converged: E = {field.energy:.2g}.")
     reason = f"The field is aligned but not integrable: E = {field.energy:.2g}."
     if field.energy <= NEARLY_INTEGRABLE:
         return Verdict("suspect", reason)

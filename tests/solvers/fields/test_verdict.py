@@ -61,6 +61,15 @@ def test_what_is_off_by_the_tolerance_is_refused(
         assert verdict.refused == (share != 0.99)
 
 
+def test_an_iterate_that_has_not_converged_is_not_valid(field: CrossField) -> None:
+    """However small its E is: what is left may be all that the configuration is off by."""
+    assert judge(field, 0).status == "valid"
+    stopped = replace(field, convergence=replace(field.convergence, converged=False))
+    verdict = judge(stopped, 0)
+    assert (verdict.status, verdict.refused) == ("suspect", False)
+    assert "not converged" in verdict.reason
+
+
 def test_energy_is_judged_in_three_steps(field: CrossField) -> None:
     limits = Limits(energy=1e-3)
     for energy, status, refused in (
