@@ -47,8 +47,7 @@ class Hand:
         end = time.monotonic() + PATIENCE
         while True:
             QApplication.processEvents()
-            work = self.window.workspace
-            if not (work.solving.busy or work.guiding.busy) and wanted():
+            if not self.window.session.busy and wanted():
                 break
             assert time.monotonic() < end, f"still waiting; message: {self.state.message}"
             time.sleep(0.002)

@@ -27,9 +27,9 @@ window.files.open(CASE)
 start = rested = time.monotonic()  # until solved, traced, and drawn smoothly at rest
 while time.monotonic() < min(rested + REST, start + PATIENCE):
     app.processEvents()
-    if window.workspace.solving.busy or not window.state.solved:
+    if window.session.solving.busy or not window.state.solved:
         rested = time.monotonic()
     if window.state.solved and window.state.focus.selected is None:
-        window.workspace.select(0)
+        window.session.pointer.select(0)
 window.grab().save(str(PICTURE))
 window.close()

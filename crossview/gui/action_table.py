@@ -7,12 +7,12 @@ from functools import partial
 
 from crossview.cases.model import METHODS
 from crossview.gui.actions import ActionSpec
-from crossview.gui.verbs import Verbs
+from crossview.gui.window_verbs import WindowVerbs
 from crossview.scene import LAYERS
 from crossview.session.commands import METHOD_LABELS
 from crossview.session.hand import OWN_TOOLS, SelectTool
-from crossview.session.moving import NATURAL_LABELS
 from crossview.session.state import SessionState
+from crossview.session.waypoints import NATURAL_LABELS
 
 
 def _locked(state: SessionState) -> bool:
@@ -32,8 +32,8 @@ def _solvable(state: SessionState) -> bool:
     return state.document is not None and state.document.budget.satisfied
 
 
-def _any_tool(verbs: Verbs) -> None:
-    verbs.workspace.take_tool(verbs.workspace.state.any_valence)
+def _any_tool(verbs: WindowVerbs) -> None:
+    verbs.session.pointer.take_tool(verbs.session.state.any_valence)
 
 
 def _is_any(state: SessionState) -> bool:
@@ -63,7 +63,7 @@ def _carried() -> tuple[ActionSpec, ...]:
             f"{verb}-{name}",
             f"{title} {name}",
             "Singularities",
-            lambda w, verb=verb, axis=axis: getattr(w.workspace.pairs, verb)(axis),  # type: ignore[misc]
+            lambda w, verb=verb, axis=axis: getattr(w.session.pairs, verb)(axis),  # type: ignore[misc]
             tip=tip,
             enabled=_placed,
             submenu=submenu,
@@ -73,8 +73,8 @@ def _carried() -> tuple[ActionSpec, ...]:
     )
 
 
-def _with_selected(verb: Callable[[Verbs, int], None], verbs: Verbs) -> None:
-    index = verbs.workspace.state.focus.selected
+def _with_selected(verb: Callable[[WindowVerbs, int], None], verbs: WindowVerbs) -> None:
+    index = verbs.session.state.focus.selected
     if index is not None:
         verb(verbs, index)
 
@@ -85,7 +85,7 @@ def _tools() -> tuple[ActionSpec, ...]:
             f"add-{valence}",
             f"Add valence {valence}",
             "Singularities",
-            lambda w, valence=valence: w.workspace.take_tool(valence),  # type: ignore[misc]
+            lambda w, valence=valence: w.session.pointer.take_tool(valence),  # type: ignore[misc]
             (str(valence),),
             f"valence:{valence}",
             f"Click on the surface places a valence {valence}; again or Esc ends",
@@ -107,7 +107,7 @@ def _naturals() -> tuple[ActionSpec, ...]:
             f"natural-{method}",
             label,
             "Singularities",
-            lambda w, method=method: w.workspace.moves.place_natural(method),  # type: ignore[misc]
+            lambda w, method=method: w.session.moves.place_natural(method),  # type: ignore[misc]
             tip="Replace the singularities by those that a smooth cross-field has by itself",
             enabled=_open,
             submenu="Natural singularities",
@@ -128,7 +128,7 @@ def _methods() -> tuple[ActionSpec, ...]:
             f"method-{method}",
             METHOD_LABELS[method],
             "Solve",
-            lambda w, method=method: w.workspace.choose_method(method),  # type: ignore[misc]
+            lambda w, method=method: w.session.edits.choose_method(method),  # type: ignore[misc]
             (f"Num+{key}",) if method != "alternating" else (),
             tip=tips[method],
             enabled=_open,
@@ -159,7 +159,7 @@ def _layers() -> tuple[ActionSpec, ...]:
             f"layer-{kind.name}",
             f"Show {kind.label if kind.name == 'H' else kind.label.lower()}",
             "View",
-            lambda w, name=kind.name: w.workspace.toggle_layer(name),  # type: ignore[misc]
+            lambda w, name=kind.name: w.session.looks.toggle_layer(name),  # type: ignore[misc]
             checked=lambda s, name=kind.name: s.layers[name].visible,  # type: ignore[misc]
             separated=kind is LAYERS[0],
         )
@@ -191,12 +191,12 @@ ACTIONS: tuple[ActionSpec, ...] = (
         separated=True,
     ),
     ActionSpec(
-        "undo", "Undo", "Edit", lambda w: w.workspace.undo(), ("Ctrl+Z",), "undo",
+        "undo", "Undo", "Edit", lambda w: w.session.edits.undo(), ("Ctrl+Z",), "undo",
         enabled=lambda s: s.undo_name is not None,
     ),
     ActionSpec(
-        "redo", "Redo", "Edit", lambda w: w.workspace.redo(), ("Ctrl+Shift+Z", "Ctrl+Y"), "redo",
-        enabled=lambda s: s.redo_name is not None,
+        "redo", "Redo", "Edit", lambda w: w.session.edits.redo(), ("Ctrl+Shift+Z", "Ctrl+Y"),
+        "redo", enabled=lambda s: s.redo_name is not None,
     ),
     ActionSpec(
         "use-largest", "Use the largest piece", "Surface", lambda w: w.files.reopen("largest"),
@@ -208,14 +208,14 @@ ACTIONS: tuple[ActionSpec, ...] = (
         enabled=_open,
     ),
     ActionSpec(
-        "mark-edges", "Mark edges", "Surface", lambda w: w.workspace.marks.take_tool(), ("M",),
-        tip="A click marks an edge for the crosses to follow, or no longer; with Shift the "
+        "mark-edges", "Mark edges", "Surface", lambda w: w.session.feature_marks.take_tool(),
+        ("M",), tip="A click marks an edge for the crosses to follow, or no longer; with Shift the "
         "shortest path from the last click",
         enabled=_open, checked=lambda s: s.mark_tool is not None, separated=True,
     ),
     ActionSpec(
-        "clear-features", "Remove all features", "Surface", lambda w: w.workspace.marks.clear(),
-        tip="Mark no edge any more",
+        "clear-features", "Remove all features", "Surface",
+        lambda w: w.session.feature_marks.clear(), tip="Mark no edge any more",
         enabled=lambda s: s.features is not None and len(s.features) > 0,
     ),
     ActionSpec(
@@ -236,29 +236,29 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ),
     ActionSpec(
         "raise", "Raise valence", "Singularities",
-        partial(_with_selected, lambda w, i: w.workspace.step_valence(i, 1)), ("+", "="), "plus",
-        "One more quad at the selected singularity; also the wheel over it", _selected,
+        partial(_with_selected, lambda w, i: w.session.edits.step_valence(i, 1)), ("+", "="),
+        "plus", "One more quad at the selected singularity; also the wheel over it", _selected,
     ),
     ActionSpec(
         "lower", "Lower valence", "Singularities",
-        partial(_with_selected, lambda w, i: w.workspace.step_valence(i, -1)), ("-",), "minus",
+        partial(_with_selected, lambda w, i: w.session.edits.step_valence(i, -1)), ("-",), "minus",
         "One quad fewer at the selected singularity; also the wheel over it",
         _selected,
     ),
     ActionSpec(
         "lock", "Locked", "Singularities",
-        partial(_with_selected, lambda w, i: w.workspace.toggle_lock(i)), ("L",), "lock",
+        partial(_with_selected, lambda w, i: w.session.edits.toggle_lock(i)), ("L",), "lock",
         "Keep the selected singularity where it is", _selected,
         _locked,
     ),
     ActionSpec(
         "delete", "Delete", "Singularities",
-        partial(_with_selected, lambda w, i: w.workspace.remove(i)), ("Del", "Backspace"), "trash",
-        "Delete the selected singularity", _selected,
+        partial(_with_selected, lambda w, i: w.session.edits.remove(i)), ("Del", "Backspace"),
+        "trash", "Delete the selected singularity", _selected,
     ),
     ActionSpec(
         "clear", "Delete all", "Singularities",
-        lambda w: w.workspace.remove(*range(len(w.workspace.state.singularities))),
+        lambda w: w.session.edits.remove(*range(len(w.session.state.singularities))),
         tip="Delete every singularity", enabled=lambda s: len(s.singularities) > 0,
     ),
     ActionSpec(
@@ -268,35 +268,35 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ),
     ActionSpec(
         "merge", "Merge the two selected", "Singularities",
-        lambda w: w.workspace.pairs.merge(), ("J",),
+        lambda w: w.session.pairs.merge(), ("J",),
         tip="One singularity of two; select the second with Ctrl and a click", enabled=_paired,
     ),
     ActionSpec(
         "split", "Split in two", "Singularities",
-        partial(_with_selected, lambda w, i: w.workspace.pairs.split(i)), ("S",),
+        partial(_with_selected, lambda w, i: w.session.pairs.split(i)), ("S",),
         tip="Two singularities of half the index, as two 5 of a 6", enabled=_selected,
     ),
     *_carried(),
     ActionSpec(
         "distribute", "Distribute the missing index", "Singularities",
-        lambda w: w.workspace.pairs.distribute(),
+        lambda w: w.session.pairs.distribute(),
         tip="Add the valences 3 or 5 that are missing, where they even out the sizes most",
         enabled=_incomplete,
     ),
     ActionSpec(
-        "make-valid", "Make valid", "Singularities", lambda w: w.workspace.moves.make_valid(),
+        "make-valid", "Make valid", "Singularities", lambda w: w.session.moves.make_valid(),
         tip="Move unlocked singularities as little as need be until every loop closes",
         enabled=_movable, separated=True,
     ),
     *_naturals(),
     ActionSpec(
         "along-curvature", "Along curvature", "Singularities",
-        lambda w: w.workspace.toggle_along_curvature(),
+        lambda w: w.session.moves.toggle_along_curvature(),
         tip="Draw the crosses of natural singularities towards the directions of curvature",
         checked=lambda s: s.along_curvature, separated=True, submenu="Natural singularities",
     ),
     ActionSpec(
-        "solve", "Solve", "Solve", lambda w: w.workspace.solving.solve(), ("F5",), "solve",
+        "solve", "Solve", "Solve", lambda w: w.session.solving.solve(), ("F5",), "solve",
         "Solve again with refinement at the singularities", _solvable,
     ),
     ActionSpec(
@@ -304,12 +304,12 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "Fill the surface with quads along the field, as the Quads panel says", _solvable,
     ),
     ActionSpec(
-        "stop", "Stop", "Solve", lambda w: w.workspace.solving.stop(), ("Shift+F5",), "stop",
+        "stop", "Stop", "Solve", lambda w: w.session.solving.stop(), ("Shift+F5",), "stop",
         "Stop the computation; the last field stays", lambda s: s.progress is not None,
     ),
     *_methods(),
     ActionSpec(
-        "compare", "Compare with the start", "Solve", lambda w: w.workspace.compare(), ("C",),
+        "compare", "Compare with the start", "Solve", lambda w: w.session.looks.compare(), ("C",),
         tip="Show the error density that the method started from, on the range of the result",
         enabled=lambda s: s.start is not None,
         checked=lambda s: s.comparing and s.start is not None, separated=True,
@@ -322,7 +322,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
     *_layers(),
     ActionSpec(
         "dark", "Dark scene", "View",
-        lambda w: w.workspace.toggle_dark(), checked=lambda s: s.dark,
+        lambda w: w.session.looks.toggle_dark(), checked=lambda s: s.dark,
         separated=True,
     ),
     ActionSpec(

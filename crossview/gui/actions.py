@@ -9,7 +9,7 @@ from PySide6.QtGui import QAction, QIcon, QKeySequence
 from PySide6.QtWidgets import QWidget
 
 from crossview.gui.icons import icon, valence_icon
-from crossview.gui.verbs import Verbs
+from crossview.gui.window_verbs import WindowVerbs
 from crossview.session.state import SessionState
 
 
@@ -50,7 +50,7 @@ class ActionSpec:
     name: str
     text: str
     menu: str
-    run: Callable[[Verbs], object]
+    run: Callable[[WindowVerbs], object]
     keys: tuple[str, ...] = ()
     icon: str = ""
     tip: str = ""
@@ -66,13 +66,13 @@ class Actions:
     Parameters
     ----------
     table : iterable of ActionSpec
-    verbs : Verbs
+    verbs : WindowVerbs
         What they call.
     parent : QWidget
         Where their shortcuts are heard.
     """
 
-    def __init__(self, table: Iterable[ActionSpec], verbs: Verbs, parent: QWidget) -> None:
+    def __init__(self, table: Iterable[ActionSpec], verbs: WindowVerbs, parent: QWidget) -> None:
         self._verbs = verbs
         self.specs = {spec.name: spec for spec in table}
         self.by_name = {name: self._make(spec, parent) for name, spec in self.specs.items()}
@@ -103,7 +103,7 @@ class Actions:
 
     def _run(self, spec: ActionSpec) -> None:
         spec.run(self._verbs)
-        self.show(self._verbs.workspace.state)
+        self.show(self._verbs.session.state)
 
 
 def action_icon(name: str) -> QIcon:

@@ -39,7 +39,7 @@ def run(path: str | None) -> int:
     app = application()
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl+C in the terminal ends the window too
     window = MainWindow()
-    sys.excepthook = lambda kind, error, trace: window.workspace.fail(error, "unexpected")
+    sys.excepthook = lambda kind, error, trace: window.session.fail(error, "unexpected")
     window.show()
     if path is not None:
         window.files.open(path)

@@ -8,24 +8,24 @@ from PySide6.QtWidgets import QStackedWidget, QVBoxLayout, QWidget
 from crossview.gui.empty_state import EmptyState
 from crossview.gui.message_bar import MessageBar
 from crossview.gui.viewport import Viewport
-from crossview.gui.workspace import Workspace
+from crossview.session.session import Session
 from crossview.session.state import SessionState
 
 
 class Centre(QWidget):
     """The empty state or the viewport, and the message bar floating over them."""
 
-    def __init__(self, workspace: Workspace) -> None:
+    def __init__(self, session: Session) -> None:
         super().__init__()
         self.empty = EmptyState()
-        self.viewport = Viewport(workspace)
+        self.viewport = Viewport(session)
         self.stack = QStackedWidget()
         self.stack.addWidget(self.empty)
         self.stack.addWidget(self.viewport)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self.stack)
-        self.message_bar = MessageBar(workspace, self)
+        self.message_bar = MessageBar(session, self)
 
     def show_state(self, old: SessionState, new: SessionState) -> None:
         """Follow the window's state."""

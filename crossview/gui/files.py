@@ -11,9 +11,9 @@ from PySide6.QtWidgets import QFileDialog, QStatusBar, QWidget
 from crossview.export.meshes import write_mesh
 from crossview.gui.figure import Figure
 from crossview.gui.recent import remember
-from crossview.gui.workspace import Workspace
 from crossview.io import SUFFIXES
 from crossview.session.document import Document
+from crossview.session.session import Session
 
 FIGURES = "PNG picture (*.png);;SVG drawing (*.svg);;PDF drawing (*.pdf)"
 MESHES = ";;".join(
@@ -36,7 +36,7 @@ class Files:
 
     Parameters
     ----------
-    workspace : Workspace
+    session : Session
     figure : callable
         Returns what a figure would show now; None: nothing.
     parent : QWidget
@@ -47,12 +47,12 @@ class Files:
 
     def __init__(
         self,
-        workspace: Workspace,
+        session: Session,
         figure: Callable[[], Figure | None],
         parent: QWidget,
         status: QStatusBar,
     ) -> None:
-        self._workspace = workspace
+        self._session = session
         self._figure = figure
         self._parent = parent
         self._status = status
@@ -62,7 +62,7 @@ class Files:
     def open(self, target: str) -> None:
         """Open a file, a gallery case or a built-in surface."""
         self._asked = target
-        self._workspace.open(target)
+        self._session.open(target)
 
     def opened(self, document: Document) -> None:
         """Remember what was opened; among the recent ones, when it is a file."""
@@ -73,7 +73,7 @@ class Files:
     def reopen(self, component: str | None = None, repair: bool = False) -> None:
         """Open the same again with other choices."""
         self._asked = self._target
-        self._workspace.open(self._target, component, repair)
+        self._session.open(self._target, component, repair)
 
     def ask_open(self) -> None:
         """Ask for a surface or a case and open it."""
@@ -97,9 +97,9 @@ class Files:
 
     def save(self, path: Path) -> None:
         """Write the present document as a case file."""
-        document = self._workspace.state.document
+        document = self._session.state.document
         if document is not None:
-            self._workspace.attempt("save", lambda: document.to_case().save(path))
+            self._session.attempt("save", lambda: document.to_case().save(path))
 
     def ask_figure(self) -> None:
         """Ask where to write the figure, and write it."""
@@ -125,7 +125,7 @@ class Files:
 
     def save_quads(self, path: Path) -> None:
         """Write the quads that are shown."""
-        quads = self._workspace.state.made.quads
+        quads = self._session.state.made.quads
         if quads is not None:
             self._write(partial(write_mesh, quads), path)
 
@@ -136,12 +136,12 @@ class Files:
             write(path)
             self._status.showMessage(f"Wrote {path}", SAID_MS)
 
-        self._workspace.attempt("export", verb)
+        self._session.attempt("export", verb)
 
     def _folder(self) -> str:
         return str(Path(self._target).parent) if Path(self._target).is_file() else str(Path.home())
 
     def _suggested(self, suffix: str) -> str:
-        document = self._workspace.state.document
+        document = self._session.state.document
         name = "crossview" if document is None else document.name
         return str(Path(self._folder()) / f"{name}{suffix}")

@@ -27,14 +27,15 @@ from crossview.gui.panels import (
     SurfacePanel,
     ValidityPanel,
 )
-from crossview.gui.scene_view import figure_view
+from crossview.gui.qt_loop import QtLoop
 from crossview.gui.status import Status
 from crossview.gui.toolbar import fill_toolbar
 from crossview.gui.valence_box import ValenceBox
 from crossview.gui.viewport import Viewport
 from crossview.gui.window_geometry import WindowGeometry
-from crossview.gui.workspace import Workspace
 from crossview.session.document import Document
+from crossview.session.pictures import figure_view
+from crossview.session.session import Session
 from crossview.session.state import SessionState
 
 
@@ -47,18 +48,18 @@ class MainWindow(QMainWindow):
         # Never larger than the screen, whose edge would hide the docks on the right.
         self.resize(QSize(1440, 900).boundedTo(self.screen().availableSize()))
         self.setAcceptDrops(True)
-        self.workspace: Workspace = Workspace(self)
-        self.files: Files = Files(self.workspace, self.figure, self, self.statusBar())
+        self.session: Session = Session(QtLoop(self))
+        self.files: Files = Files(self.session, self.figure, self, self.statusBar())
         self.actions_table = Actions(ACTIONS, self, self)
         named = self.actions_table.by_name
-        self.centre: Centre = Centre(self.workspace)
+        self.centre: Centre = Centre(self.session)
         self.setCentralWidget(self.centre)
         self.viewport: Viewport = self.centre.viewport
-        self.mouse: Mouse = Mouse(self.viewport, self.workspace)
-        self.surface_panel = SurfacePanel(self.workspace)
-        self.singularities_panel: SingularitiesPanel = SingularitiesPanel(self.workspace, named)
-        self.validity_panel = ValidityPanel(self.workspace, named["make-valid"])
-        self.layers_panel = LayersPanel(self.workspace)
+        self.mouse: Mouse = Mouse(self.viewport, self.session)
+        self.surface_panel = SurfacePanel(self.session)
+        self.singularities_panel: SingularitiesPanel = SingularitiesPanel(self.session, named)
+        self.validity_panel = ValidityPanel(self.session, named["make-valid"])
+        self.layers_panel = LayersPanel(self.session)
         self.convergence_panel = ConvergencePanel(named["compare"])
         self.quads_panel = QuadsPanel(named["mesh"], named["save-quads"])
         self.export_panel = ExportPanel(named["figure"])
@@ -76,10 +77,10 @@ class MainWindow(QMainWindow):
         )
         shown = [dock.toggleViewAction() for dock in self.docks.values()]
         self.menus = Menus(self.menuBar(), named, shown, self.files.open)
-        self.method_box: MethodBox = MethodBox(self.workspace)
-        boxes = {"method": self.method_box, "any-valence": ValenceBox(self.workspace)}
+        self.method_box: MethodBox = MethodBox(self.session)
+        boxes = {"method": self.method_box, "any-valence": ValenceBox(self.session)}
         fill_toolbar(self.addToolBar("Tools"), named, boxes)
-        self.status = Status(self.statusBar(), self.workspace, named["stop"])
+        self.status = Status(self.statusBar(), self.session, named["stop"])
         self.figure_preview = FigurePreview(self.export_panel, self.figure)
         self.window_geometry: WindowGeometry = WindowGeometry(self, self.docks)
         self._connect()
@@ -87,8 +88,8 @@ class MainWindow(QMainWindow):
 
     def _connect(self) -> None:
         """Let the parts hear each other."""
-        self.workspace.changed.connect(self._show_state)
-        self.workspace.opened.connect(self._opened)
+        self.session.observers.append(self._show_state)
+        self.session.opened.append(self._opened)
         self.mouse.menu_wanted.connect(self._show_menu)
         self.mouse.edit_wanted.connect(self.edit_valence)
         self.mouse.hovered.connect(self.status.show_hover)
@@ -96,13 +97,12 @@ class MainWindow(QMainWindow):
         self.centre.empty.chosen.connect(self.files.open)
         self.centre.empty.open_wanted.connect(self.files.ask_open)
         self.docks["Export"].visibilityChanged.connect(self.figure_preview.ask)
-        self.workspace.changed.connect(self.figure_preview.ask)
         self.viewport.frame_drawn.connect(self.figure_preview.ask)  # the camera may have turned
 
     @property
     def state(self) -> SessionState:
         """What the window shows."""
-        return self.workspace.state
+        return self.session.state
 
     def figure(self) -> Figure | None:
         """Return what a figure would show now; None while nothing is open."""
@@ -131,12 +131,12 @@ class MainWindow(QMainWindow):
     def make_quads(self) -> None:
         """Make quads as the Quads panel says, and show it."""
         self.docks["Quads"].raise_()
-        self.workspace.meshing.make(self.quads_panel.options)
+        self.session.quad_making.make(self.quads_panel.options)
 
     def add_pair(self) -> None:
         """Add a pair where the mouse is, where the menu was asked for, or where there is room."""
         pick = self.mouse.under_menu or self.mouse.under_mouse
-        self.workspace.pairs.add(None if pick is None else pick.point)
+        self.session.pairs.add(None if pick is None else pick.point)
 
     def show_about(self) -> None:
         """Say what this is."""
@@ -150,7 +150,7 @@ class MainWindow(QMainWindow):
     def escape(self) -> None:
         """Put a dragged singularity back, else take the select tool."""
         if not self.mouse.let_go():
-            self.workspace.put_tool_back()
+            self.session.pointer.put_tool_back()
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         """Take files."""
@@ -173,7 +173,7 @@ class MainWindow(QMainWindow):
     def closeEvent(self, event: QCloseEvent) -> None:
         """End the background and free what VTK holds."""
         self.window_geometry.keep()
-        self.workspace.close()
+        self.session.close()
         self.figure_preview.close()
         self.mouse.close()
         self.viewport.close_plotter()
@@ -193,10 +193,10 @@ class MainWindow(QMainWindow):
         ):
             panel.show_state(old, new)
         self.actions_table.show(new)
+        self.figure_preview.ask()
         if old.document is not new.document:
             name = "" if new.document is None else f"{new.document.name} \u2013 "
             self.setWindowTitle(f"{name}crossview")
-        self.workspace.guiding.follow()
         before = None if old.document is None else old.document.surface
         after = None if new.document is None else new.document.surface
         if before is not after or old.faulty is not new.faulty:
@@ -208,7 +208,7 @@ class MainWindow(QMainWindow):
 
     def _show_menu(self, singularity: int | None, place: QPoint) -> None:
         if singularity is not None:
-            self.workspace.choose(singularity)
+            self.session.pointer.choose(singularity)
             self.singularities_panel.menu().popup(place)
         elif self.state.document is not None:
             self.menus.scene_menu().popup(place)

@@ -17,8 +17,8 @@ from PySide6.QtWidgets import (
 )
 
 from crossview.gui.icons import colored_icon, icon
-from crossview.gui.workspace import Workspace
 from crossview.session.message import Message
+from crossview.session.session import Session
 from crossview.session.state import SessionState
 from crossview.view.colors import BAD
 from solvers.remedies import Remedy
@@ -30,9 +30,9 @@ MOST_WIDTH, MARGIN = 720, 12
 class MessageBar(QFrame):
     """Floats at the top of its parent; not modal; goes when the state's message goes."""
 
-    def __init__(self, workspace: Workspace, parent: QWidget) -> None:
+    def __init__(self, session: Session, parent: QWidget) -> None:
         super().__init__(parent)
-        self._workspace = workspace
+        self._session = session
         self._over = parent
         self.setObjectName("message-bar")
         self.setAutoFillBackground(True)
@@ -54,7 +54,7 @@ class MessageBar(QFrame):
         close.setIcon(icon("close"))
         close.setToolTip("Dismiss")
         close.setAutoRaise(True)
-        close.clicked.connect(lambda: self._workspace.dismiss())
+        close.clicked.connect(lambda: self._session.dismiss())
         self.details = QPlainTextEdit()
         self.details.setReadOnly(True)
         self.details.setFixedHeight(104)
@@ -119,7 +119,7 @@ class MessageBar(QFrame):
 
     def _button(self, message: Message, remedy: Remedy) -> QPushButton:
         button = QPushButton(remedy.label)
-        button.clicked.connect(lambda: self._workspace.carry_out(remedy, message.tried))
+        button.clicked.connect(lambda: self._session.carry_out(remedy, message.tried))
         self._buttons.insertWidget(self._buttons.count() - 3, button)
         return button
 

@@ -6,15 +6,15 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QComboBox
 
 from crossview.cases.model import METHODS
-from crossview.gui.workspace import Workspace
 from crossview.session.commands import METHOD_LABELS
+from crossview.session.session import Session
 from crossview.session.state import SessionState
 
 
 class MethodBox(QComboBox):
     """Shows and chooses the method of the document."""
 
-    def __init__(self, workspace: Workspace) -> None:
+    def __init__(self, session: Session) -> None:
         super().__init__()
         for method in METHODS:
             self.addItem(METHOD_LABELS[method], method)
@@ -22,7 +22,7 @@ class MethodBox(QComboBox):
         self.setAccessibleName("Method")
         self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
         self.setEnabled(False)
-        self.activated.connect(lambda row: workspace.choose_method(METHODS[row]))
+        self.activated.connect(lambda row: session.edits.choose_method(METHODS[row]))
 
     def show_state(self, old: SessionState, new: SessionState) -> None:
         """Follow the window's state."""

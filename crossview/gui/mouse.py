@@ -9,7 +9,7 @@ from PySide6.QtGui import QMouseEvent, QWheelEvent
 
 from crossview.gui.picking import Pick
 from crossview.gui.viewport import Viewport
-from crossview.gui.workspace import Workspace
+from crossview.session.session import Session
 from solvers.surface.points import SurfacePoint
 
 CLICK_REACH = 4.0
@@ -40,12 +40,12 @@ class Mouse(QObject):
     edit_wanted = Signal(int)
     """A singularity was clicked twice."""
 
-    def __init__(self, viewport: Viewport, workspace: Workspace) -> None:
+    def __init__(self, viewport: Viewport, session: Session) -> None:
         super().__init__(viewport)
         self.under_mouse: Pick | None = None
         self.under_menu: Pick | None = None
         self._viewport = viewport
-        self._workspace = workspace
+        self._session = session
         self._grip = _Grip.NOTHING
         self._held = -1
         self._pressed_at = QPointF()
@@ -96,13 +96,13 @@ class Mouse(QObject):
         away = (event.position() - self._pressed_at).manhattanLength() >= CLICK_REACH
         self._moved |= away and bool(event.buttons())
         if self._grip is _Grip.SINGULARITY and self._moved:
-            started = self._workspace.trials.start_drag(self._held)
+            started = self._session.trials.start_drag(self._held)
             self._grip = _Grip.DRAG if started else _Grip.CAMERA
         if self._grip is _Grip.DRAG:
             pick = self._viewport.pick(event.position())
             if pick is not None:
                 keep = bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier)
-                self._workspace.trials.drag_to(pick.point, keep)
+                self._session.trials.drag_to(pick.point, keep)
             return True
         if not event.buttons():
             self._hover(event.position())
@@ -120,10 +120,10 @@ class Mouse(QObject):
         if event.button() != Qt.MouseButton.LeftButton:
             return False
         if grip is _Grip.DRAG:
-            self._workspace.trials.drop()
+            self._session.trials.drop()
         elif grip is _Grip.SINGULARITY:
             both = bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier)
-            self._workspace.select(self._held, both)
+            self._session.pointer.select(self._held, both)
         elif not self._moved:
             self._viewport.pass_on(event)
             self._click(event.position())
@@ -132,14 +132,14 @@ class Mouse(QObject):
         return True
 
     def _click(self, place: QPointF) -> None:
-        pick, state = self._viewport.pick(place), self._workspace.state
+        pick, state = self._viewport.pick(place), self._session.state
         if state.mark_tool is not None:
             if pick is not None:
-                self._workspace.marks.click(pick.point, self._onwards)
+                self._session.feature_marks.click(pick.point, self._onwards)
         elif pick is not None and state.added_valence is not None:
-            self._workspace.add(pick.point, state.added_valence)
+            self._session.edits.add(pick.point, state.added_valence)
         else:
-            self._workspace.select(None)
+            self._session.pointer.select(None)
 
     def _ask_menu(self, place: QPointF, global_place: QPoint) -> None:
         """Ask for the menu of what is under a place."""
@@ -154,9 +154,9 @@ class Mouse(QObject):
         steps = int(self._wheel / NOTCH)
         self._wheel -= steps * NOTCH
         for _ in range(abs(steps)):
-            self._workspace.step_valence(index, 1 if steps > 0 else -1)
+            self._session.edits.step_valence(index, 1 if steps > 0 else -1)
         if steps:
-            self._workspace.choose(index)
+            self._session.pointer.choose(index)
         return True
 
     def _hover(self, place: QPointF | None) -> None:
@@ -168,17 +168,17 @@ class Mouse(QObject):
         self.hovered.emit(pick)
         over = None if place is None else self._viewport.singularity_at(place)
         self._viewport.point_out(over)
-        self._workspace.hover(over)
-        if self._workspace.state.mark_tool is not None:
-            self._workspace.marks.hover(None if pick is None else pick.point, self._onwards)
-        if self._workspace.state.added_valence is not None:
+        self._session.pointer.hover(over)
+        if self._session.state.mark_tool is not None:
+            self._session.feature_marks.hover(None if pick is None else pick.point, self._onwards)
+        if self._session.state.added_valence is not None:
             point: SurfacePoint | None = None if pick is None or over is not None else pick.point
-            self._workspace.trials.preview(point)
+            self._session.trials.preview(point)
 
     def let_go(self) -> bool:
         """End a drag, if there is one, and put the singularity back."""
         if self._grip is not _Grip.DRAG:
             return False
         self._grip = _Grip.NOTHING
-        self._workspace.trials.cancel()
+        self._session.trials.cancel()
         return True

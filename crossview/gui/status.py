@@ -8,8 +8,8 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QLabel, QProgressBar, QStatusBar, QToolButton
 
 from crossview.gui.picking import Pick
-from crossview.gui.workspace import Workspace
-from crossview.session.methods import Iterate
+from crossview.session.method_solver import MethodStep
+from crossview.session.session import Session
 from crossview.session.state import SessionState
 from crossview.view.texts import energy, hover
 from solvers.progress import Progress
@@ -23,13 +23,13 @@ class Status:
     Parameters
     ----------
     bar : QStatusBar
-    workspace : Workspace
+    session : Session
     stop : QAction
         Stops what the background does.
     """
 
-    def __init__(self, bar: QStatusBar, workspace: Workspace, stop: QAction) -> None:
-        self._workspace = workspace
+    def __init__(self, bar: QStatusBar, session: Session, stop: QAction) -> None:
+        self._session = session
         self.hover, self.stage, self.frame = QLabel(), QLabel(), QLabel()
         self.bar = QProgressBar()
         self.bar.setRange(0, 100)
@@ -71,12 +71,12 @@ class Status:
 
     def show_hover(self, pick: Pick | None) -> None:
         """Read out the field at the place under the mouse."""
-        field = self._workspace.state.field
+        field = self._session.state.field
         if pick is None:
             self.hover.setText("")
             return
         height = None
-        if field is not None and field.surface is self._workspace.state.shown_surface:
+        if field is not None and field.surface is self._session.state.shown_surface:
             corners = field.H[field.surface.faces[pick.point.face]]
             height = float(np.dot(corners, pick.point.barycentric))
         self.hover.setText(hover(height, pick.point.face))
@@ -87,7 +87,7 @@ class Status:
 
 
 def _stage(progress: Progress) -> str:
-    if not isinstance(progress, Iterate):
+    if not isinstance(progress, MethodStep):
         return progress.stage
     so_far = progress.step.energies
     return f"{progress.stage} {len(so_far) - 1}  E = {energy(so_far[-1])}"

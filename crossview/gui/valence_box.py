@@ -5,18 +5,18 @@ from __future__ import annotations
 from PySide6.QtCore import QLocale, Qt
 from PySide6.QtWidgets import QSpinBox
 
-from crossview.gui.workspace import Workspace
 from crossview.session.commands import MAX_VALENCE, MIN_VALENCE
+from crossview.session.session import Session
 
 
 class ValenceBox(QSpinBox):
     """Chooses any valence; the tool, when it is in hand, carries it at once."""
 
-    def __init__(self, workspace: Workspace) -> None:
+    def __init__(self, session: Session) -> None:
         super().__init__()
         self.setLocale(QLocale.c())
         self.setRange(MIN_VALENCE, MAX_VALENCE)
-        self.setValue(workspace.state.any_valence)
+        self.setValue(session.state.any_valence)
         self.setToolTip("Valence that the tool n places")
         self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
-        self.valueChanged.connect(workspace.choose_valence)
+        self.valueChanged.connect(session.pointer.choose_valence)

@@ -22,12 +22,12 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 from pyvistaqt import QtInteractor
 
 from crossview.gui.picking import Pick, Picker, Place
-from crossview.gui.ranges import HeldRanges
-from crossview.gui.scene_view import scene_view
-from crossview.gui.workspace import Workspace
 from crossview.scene import Scene, software_renderer
 from crossview.scene.singularities import marker_radius
 from crossview.session.hand import Focus, SelectTool
+from crossview.session.held_ranges import HeldRanges
+from crossview.session.pictures import scene_view
+from crossview.session.session import Session
 from crossview.session.state import SessionState
 from crossview.view.scalars import shown_scalar
 
@@ -50,9 +50,9 @@ class Viewport(QWidget):
     frame_drawn = Signal(float)
     """Milliseconds that a frame took."""
 
-    def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._workspace = workspace
+        self._session = session
         self._software = software_renderer()
         samples = 1 if self._software else 4
         self.plotter = QtInteractor(self, auto_update=False, multi_samples=samples)
@@ -90,7 +90,7 @@ class Viewport(QWidget):
         self._draw()
 
     def _draw(self) -> None:
-        state = self._workspace.state
+        state = self._session.state
         self.held.follow(state)
         view = scene_view(state, self.held.ranges)
         if self.scene.show(replace(view, title=self._elided(view.title))):
@@ -145,7 +145,7 @@ class Viewport(QWidget):
 
     def singularity_at(self, place: QPointF) -> int | None:
         """Return the number of the singularity under a place of the widget."""
-        state = self._workspace.state
+        state = self._session.state
         document = state.document
         if document is None or not state.singularities or not state.layers["singularities"].visible:
             return None
@@ -159,7 +159,7 @@ class Viewport(QWidget):
     def point_out(self, singularity: int | None) -> None:
         """Show by the cursor that something can be taken hold of."""
         hand = Qt.CursorShape.PointingHandCursor
-        idle = isinstance(self._workspace.state.tool, SelectTool)
+        idle = isinstance(self._session.state.tool, SelectTool)
         plain = Qt.CursorShape.ArrowCursor if idle else Qt.CursorShape.CrossCursor
         self.plotter.setCursor(plain if singularity is None else hand)
 

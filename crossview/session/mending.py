@@ -15,7 +15,7 @@ from crossview.session.commands import (
     ReplaceSingularities,
 )
 from crossview.session.document import Document
-from crossview.session.pairing import distribute
+from crossview.session.rearrangements import distribute
 from solvers.progress import Progress
 from solvers.remedies import Remedy, UseMethod
 from solvers.singularities.budget import Singularity

@@ -1,22 +1,18 @@
-"""Everything that is shown and held in a session, as one frozen value.
+"""What happens in a session, as transitions from one frozen state to the next.
 
-What happens is a method that returns the next state; nothing is computed in any of them that
-takes longer than a look-up, and none knows of windows, threads or files.
+Nothing is computed in any of them that takes longer than a look-up, and none knows of windows,
+threads or files.
 """
 
 from __future__ import annotations
 
-import dataclasses
-import math
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from crossview.cases.model import METHODS
 from crossview.session.document import Document
+from crossview.session.facts import Facts
 from crossview.session.hand import (
     OWN_TOOLS,
     AddTool,
-    FeatureTrial,
     Focus,
     MarkTool,
     SelectTool,
@@ -24,91 +20,30 @@ from crossview.session.hand import (
     Trial,
 )
 from crossview.session.live import LiveBase, LiveEdit
-from crossview.session.meshes import NO_MESHES, Meshes
-from crossview.session.message import Faulty, Message
-from crossview.session.methods import Iterate
-from crossview.session.moving import Waypoint
+from crossview.session.live_tracer import Traced
+from crossview.session.meshes import Meshes
+from crossview.session.message import Message
+from crossview.session.method_solver import MethodStep
 from crossview.session.shown import (
-    Drawn,
     Iterating,
     Moving,
     Nothing,
     Provisional,
     Shown,
     Solved,
-    drawn_of,
 )
-from crossview.session.tracing import Traced
-from crossview.view.scene_view import LayerSettings, default_layers
-from crossview.view.values import Elements, GuideLine
+from crossview.session.waypoints import Waypoint
+from crossview.view.scene_view import LayerSettings
 from crossview.workflow.pipeline import Solution
-from crossview.workflow.problem import Problem
-from solvers.features.edges import Features
-from solvers.fields.crossfield import CrossField
-from solvers.layouts.separatrices import Separatrices
 from solvers.progress import Progress
-from solvers.singularities.budget import IndexBudget, Singularity, index_budget
+from solvers.singularities.budget import Singularity
 from solvers.surface.points import SurfacePoint
-from solvers.surface.triangulation import FloatArray, IntArray
-from solvers.surface.trisurface import TriSurface
+from solvers.surface.triangulation import IntArray
 
 
 @dataclass(frozen=True, eq=False)
-class SessionState:
-    """What a session shows and holds. See the properties for what follows from it.
-
-    Parameters
-    ----------
-    document : Document or None
-        None: nothing is open.
-    undo_name, redo_name : str or None
-        What undo and redo would do.
-    shown : Nothing, Solved, Provisional, Iterating or Moving
-        What is shown of a field.
-    comparing : bool
-        Whether the error density of `start` is shown in place of that of `field`.
-    tool : SelectTool, AddTool or MarkTool
-        What a click does.
-    any_valence : int
-        What the tool "any valence" carries.
-    focus : Focus
-        What is selected or under the mouse.
-    trial : Trial or None
-        A singularity dragged or not yet placed.
-    feature_trial : FeatureTrial or None
-    along_curvature : bool
-        Whether natural singularities come from crosses that are drawn to principal directions.
-    guide : tuple of GuideLine
-        Where the singularity under the mouse may go.
-    poor : bool
-        Whether the poor triangles are pointed out.
-    layers : mapping of str to LayerSettings
-    dark : bool
-        Whether the scene has a dark background.
-    message : Message or None
-    progress : Progress or None
-        What the background is doing; None: nothing.
-    """
-
-    document: Document | None = None
-    undo_name: str | None = None
-    redo_name: str | None = None
-    shown: Shown = dataclasses.field(default_factory=Nothing)
-    comparing: bool = False
-    tool: Tool = dataclasses.field(default_factory=SelectTool)
-    any_valence: int = 7
-    focus: Focus = dataclasses.field(default_factory=Focus)
-    trial: Trial | None = None
-    feature_trial: FeatureTrial | None = None
-    along_curvature: bool = False
-    guide: tuple[GuideLine, ...] = ()
-    poor: bool = False
-    layers: Mapping[str, LayerSettings] = dataclasses.field(default_factory=default_layers)
-    dark: bool = False
-    message: Message | None = None
-    progress: Progress | None = None
-
-    # What happens.
+class SessionState(Facts):
+    """The state of a session; each method returns the state after something has happened."""
 
     def document_changed(
         self, document: Document | None, undo_name: str | None, redo_name: str | None
@@ -140,7 +75,7 @@ class SessionState:
     def progressed(self, progress: Progress | None) -> SessionState:
         """Return the state with news of the background; None: it has nothing left to do."""
         shown, drawn = self.shown, self.drawn
-        if isinstance(progress, Iterate):
+        if isinstance(progress, MethodStep):
             if progress.field is not None:
                 drawn = Provisional(progress.field, progress.base, self.last)
             shown = Iterating(progress.step, progress.start, drawn)
@@ -248,6 +183,10 @@ class SessionState:
         """Return the state with something else selected or under the mouse."""
         return self if focus == self.focus else replace(self, focus=focus)
 
+    def selecting(self, index: int) -> SessionState:
+        """Return the state with singularity `index` selected in place of the one that was."""
+        return self.focused(replace(self.focus, selected=index))
+
     def said(self, message: Message | None) -> SessionState:
         """Return the state with a message in place of any other."""
         return replace(self, message=message)
@@ -270,199 +209,3 @@ class SessionState:
 
     def _edit(self, document: Document) -> LiveEdit | None:
         return None if self.base is None else LiveEdit.start(document, self.base)
-
-    # What follows.
-
-    @property
-    def drawn(self) -> Drawn:
-        """What is seen of a field, whatever runs."""
-        return drawn_of(self.shown)
-
-    @property
-    def field(self) -> CrossField | None:
-        """The field that is drawn."""
-        return self.drawn.field
-
-    @property
-    def base(self) -> LiveBase | None:
-        """The factored surface that edits are tried on."""
-        return self.drawn.base
-
-    @property
-    def last(self) -> Solved | None:
-        """What was last solved on this surface."""
-        return self.drawn.last
-
-    @property
-    def solution(self) -> Solution | None:
-        """The last solution, whose document may have moved on."""
-        return None if self.last is None else self.last.solution
-
-    @property
-    def start(self) -> CrossField | None:
-        """What the method that runs or has run started from; None if it is isotropic."""
-        if isinstance(self.shown, Iterating):
-            return self.shown.start
-        return None if self.last is None else self.last.start
-
-    @property
-    def iterating(self) -> Iterating | None:
-        """The solve that runs, from its first iteration on."""
-        return self.shown if isinstance(self.shown, Iterating) else None
-
-    @property
-    def moving(self) -> Moving | None:
-        """The singularities on their way, if they are."""
-        return self.shown if isinstance(self.shown, Moving) else None
-
-    @property
-    def cut_graph(self) -> IntArray | None:
-        """The cut graph of the field, where it is known: vertex pairs, shape (k, 2)."""
-        drawn = self.drawn
-        return drawn.cut_graph if isinstance(drawn, Solved) else None
-
-    @property
-    def meshes(self) -> Meshes:
-        """Separatrices, layout and quads, of a field that may no longer be `field`: see `made`."""
-        return self.drawn.meshes
-
-    @property
-    def added_valence(self) -> int | None:
-        """The valence that the tool in hand adds, if it adds."""
-        return self.tool.valence if isinstance(self.tool, AddTool) else None
-
-    @property
-    def mark_tool(self) -> MarkTool | None:
-        """The tool that marks edges, if it is in hand."""
-        return self.tool if isinstance(self.tool, MarkTool) else None
-
-    @property
-    def singularities(self) -> tuple[Singularity, ...]:
-        """The singularities on the document's surface, a drag or their own way included."""
-        if self.moving is not None:
-            return self.moving.singularities
-        if self.trial is not None and self.trial.drag:
-            return self.trial.singularities
-        return () if self.document is None else self.document.singularities
-
-    @property
-    def shown_surface(self) -> TriSurface | None:
-        """The surface that is drawn and picked on: the kept refined one where there is one."""
-        if self.faulty is not None:
-            return None
-        if self.base is not None:
-            return self.base.surface
-        return None if self.document is None else self.document.surface
-
-    @property
-    def faulty(self) -> Faulty | None:
-        """What is shown in place of the document while its message stands."""
-        return None if self.message is None else self.message.faulty
-
-    @property
-    def pointed(self) -> Elements | None:
-        """What the message points out on the surface shown."""
-        return None if self.message is None else self.message.pointed
-
-    @property
-    def made(self) -> Meshes:
-        """What has been made of the field that is drawn: nothing that is of another."""
-        return self.meshes if self.meshes.of is self.field else NO_MESHES
-
-    @property
-    def separatrices(self) -> Separatrices | None:
-        """The separatrices to draw; in a drag they may be a moment behind the field."""
-        dragged = self.trial is not None and self.trial.drag and self.field is not None
-        return self.meshes.separatrices if dragged else self.made.separatrices
-
-    @property
-    def features(self) -> Features | None:
-        """The feature edges to show, on `shown_surface` or, the same vertices, the document's."""
-        if self.feature_trial is not None:
-            return self.feature_trial.features
-        if self.document is None:
-            return None
-        own = self.document.problem.features
-        return own if self.field_along_features is None else self.known_features
-
-    @property
-    def field_along_features(self) -> CrossField | None:
-        """The field shown, where it tells by how much it misses the present features."""
-        features, field = self.known_features, self.field
-        if features is None or field is None or field.surface is not features.surface:
-            return None
-        return field if len(field.feature_misalignment) == len(features.curves) else None
-
-    @property
-    def known_features(self) -> Features | None:
-        """The features that `base` knows; None where they are no longer those of the document."""
-        if self.document is None or self.base is None or self.base.marking is None:
-            return None
-        same = self.base.marking == self.document.problem.marking
-        return self.base.solver.discretization.features if same else None
-
-    @property
-    def budget(self) -> IndexBudget | None:
-        """The index budget, with what the trial would change."""
-        if self.document is None:
-            return None
-        if self.trial is None or self.trial.drag:
-            return self.document.budget
-        return index_budget(self.document.surface, self.trial.singularities, self.document.corners)
-
-    @property
-    def defects(self) -> FloatArray | None:
-        """Holonomy defects in radians of the isotropic field, with the trial; None without one.
-
-        They are of the configuration: a method that bridges them leaves them as they are.
-        """
-        if self.moving is not None:
-            return self.moving.defects
-        budget = self.budget
-        if budget is None or not budget.satisfied:
-            return None
-        if self.trial is not None:
-            return None if self.trial.edit is None else self.trial.edit.defects()
-        if self.iterating is not None:
-            return self.iterating.step.so_far.aligned.isotropic.defects
-        if self.solution is not None and self.field is self.solution.field:
-            return self.solution.holonomy_defects
-        return None if self.field is None else self.field.defects
-
-    @property
-    def valid(self) -> bool:
-        """Whether the index budget holds and all holonomy defects are known and small."""
-        defects = self.defects
-        limit = math.radians(self.tolerance)
-        return defects is not None and all(abs(defect) < limit for defect in defects)
-
-    @property
-    def method(self) -> str:
-        """The method that the document is solved by."""
-        return METHODS[0] if self.document is None else self.document.problem.method
-
-    @property
-    def shown_problem(self) -> Problem | None:
-        """What `field` solves, or is about to solve; None while it only follows the mouse."""
-        if self.iterating is not None and self.document is not None:
-            return self.document.problem
-        if self.solution is not None and self.field is self.solution.field:
-            return self.solution.problem
-        return None
-
-    @property
-    def tolerance(self) -> float:
-        """Largest defect called valid, degrees."""
-        options = None if self.document is None else self.document.problem.options
-        return 0.01 if options is None else options.tolerance_degrees
-
-    @property
-    def solved(self) -> bool:
-        """Whether `solution` is of the present document."""
-        if self.document is None or self.solution is None:
-            return False
-        return self.solution.problem is self.document.problem
-
-    def lifted(self, point: SurfacePoint) -> SurfacePoint:
-        """Return a point of the shown surface as one of the document's."""
-        return point if self.base is None else self.base.refinement.lift(point)

@@ -56,9 +56,9 @@ def test_anisotropic_where_isotropic_fails_and_back(hand: Hand, isotropic_case: 
         if new.iterating is not None and new.field is not old.field:
             drawn.append((new.iterating.step.energies, new.field))
 
-    hand.window.workspace.changed.connect(watch)
+    hand.window.session.observers.append(watch)
     choose(hand, "Anisotropic")
-    hand.window.workspace.changed.disconnect(watch)
+    hand.window.session.observers.remove(watch)
     assert len(drawn) >= 1
     assert any(text.startswith("Newton 1  E = ") for text in texts)
     assert all(field.surface is hand.state.shown_surface for _, field in drawn)
@@ -126,10 +126,10 @@ def test_stop_keeps_the_last_iterate(hand: Hand, isotropic_case: Cases) -> None:
 
     def stop_soon(old: SessionState, new: SessionState) -> None:
         if new.iterating is not None and len(new.iterating.step.energies) > 20:
-            hand.window.workspace.changed.disconnect(stop_soon)
+            hand.window.session.observers.remove(stop_soon)
             stop.trigger()
 
-    hand.window.workspace.changed.connect(stop_soon)
+    hand.window.session.observers.append(stop_soon)
     choose(hand, "Alternating (paper)")
     hand.wait(lambda: hand.state.message is not None)
     assert "the last iterate is kept, not converged" in hand.state.message.text
@@ -172,7 +172,7 @@ def test_make_valid_and_undo(hand: Hand, isotropic_case: Cases) -> None:
     assert (panel.rows[0].color, hand.window.convergence_panel.color) == (BAD, BAD)
     assert panel.make_valid.isEnabled()
     on_the_way = []
-    hand.window.workspace.changed.connect(
+    hand.window.session.observers.append(
         lambda old, new: (
             on_the_way.append((new.singularities, panel.rows[0].value.text()))
             if new.moving is not None
@@ -199,7 +199,7 @@ def test_what_cannot_be_made_valid_says_why_and_what_else(
 ) -> None:
     hand.open(isotropic_case("annulus-near"))
     for i in range(8):
-        hand.window.workspace.toggle_lock(i)
+        hand.window.session.edits.toggle_lock(i)
     hand.wait(lambda: hand.state.solved)
     before, field = hand.state.document, hand.state.field
     hand.window.validity_panel.make_valid.click()
@@ -223,10 +223,10 @@ def test_stop_leaves_the_document_as_it_was(hand: Hand, isotropic_case: Cases, w
 
     def stop_at_once(old: SessionState, new: SessionState) -> None:
         if new.progress is not None:
-            hand.window.workspace.changed.disconnect(stop_at_once)
+            hand.window.session.observers.remove(stop_at_once)
             actions["stop"].trigger()
 
-    hand.window.workspace.changed.connect(stop_at_once)
+    hand.window.session.observers.append(stop_at_once)
     hand.trigger(when)
     hand.wait(lambda: hand.state.message is not None)
     assert hand.state.message.text == "Stopped; nothing was changed"
@@ -239,7 +239,7 @@ def test_natural_singularities_with_one_selected(
     hand: Hand, capsys: pytest.CaptureFixture[str]
 ) -> None:
     hand.open("disk-4")
-    hand.window.workspace.select(3)
+    hand.window.session.pointer.select(3)
     hand.trigger("natural-mbo")
     hand.wait(lambda: hand.state.solved)
     assert hand.state.undo_name == "natural singularities (MBO)"

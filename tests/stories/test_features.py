@@ -32,7 +32,7 @@ def sphere(hand: Hand, tmp_path: Path) -> Hand:
     """The window with a sphere and the cube's eight, separatrices off."""
     path = tmp_path / "sphere.json"
     path.write_text(json.dumps(SPHERE))
-    hand.window.workspace.toggle_layer("separatrices")
+    hand.window.session.looks.toggle_layer("separatrices")
     hand.open(path)
     return hand
 
@@ -153,7 +153,7 @@ def test_natural_singularities_are_drawn_on_their_way_and_stopping_breaks_nothin
     hand = sphere
     before, solution = hand.state.document, hand.state.solution
     seen = []
-    hand.window.workspace.changed.connect(
+    hand.window.session.observers.append(
         lambda old, new: seen.append(new) if new.moving is not None else None
     )
     hand.window.actions_table.by_name["natural-mbo"].trigger()

@@ -191,7 +191,7 @@ def test_a_transparent_figure_of_the_size_and_scale_asked(hand: Hand, tmp_path: 
 def test_a_figure_shows_the_view_and_layers_of_the_window(hand: Hand, tmp_path: Path) -> None:
     hand.open("disk-4")
     for name in ("singularities", "separatrices"):
-        hand.window.workspace.toggle_layer(name)
+        hand.window.session.looks.toggle_layer(name)
     hand.window.files.export(tmp_path / "without.png")
     without = np.asarray(Image.open(tmp_path / "without.png").convert("RGB"))
     assert count_color(without, BLUE) == 0

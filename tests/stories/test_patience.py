@@ -33,7 +33,7 @@ def test_events_are_heard_while_it_solves(hand: Hand, large_case: str) -> None:
     timer = QTimer()
     timer.setInterval(5)
     timer.timeout.connect(lambda: ticks.append(hand.state.progress))
-    hand.window.workspace.changed.connect(
+    hand.window.session.observers.append(
         lambda old, new: stages.add(new.progress.stage if new.progress else "")
     )
     timer.start()
@@ -49,20 +49,20 @@ def test_events_are_heard_while_it_solves(hand: Hand, large_case: str) -> None:
 def test_stop_keeps_what_was_there_and_solve_goes_on(hand: Hand, large_case: str) -> None:
     hand.open(large_case)
     before = hand.state.field
-    workspace = hand.window.workspace
+    session = hand.window.session
     stop = hand.window.actions_table.by_name["stop"]
 
     def stop_at_factor(old: SessionState, new: SessionState) -> None:
         if new.progress is not None and new.progress.stage == "factorising":
             stop.trigger()
 
-    workspace.changed.connect(stop_at_factor)
+    session.observers.append(stop_at_factor)
     point = hand.state.document.surface.closest_point((0.0, 1.2, 0.3))
-    workspace.trials.start_drag(2)
-    workspace.trials.drag_to(hand.state.base.refinement.locate(point))
-    workspace.trials.drop()
+    session.trials.start_drag(2)
+    session.trials.drag_to(hand.state.base.refinement.locate(point))
+    session.trials.drop()
     hand.wait(lambda: hand.state.message is not None)
-    workspace.changed.disconnect(stop_at_factor)
+    session.observers.remove(stop_at_factor)
     assert hand.state.message.text == "Stopped; what was there is kept"
     assert hand.state.undo_name == "move singularity 3"
     assert not hand.state.solved
@@ -74,10 +74,10 @@ def test_stop_keeps_what_was_there_and_solve_goes_on(hand: Hand, large_case: str
 
 def test_a_new_edit_overtakes_a_solve(hand: Hand, large_case: str) -> None:
     hand.open(large_case)
-    workspace = hand.window.workspace
-    workspace.toggle_lock(0)
-    workspace.change_valence(2, 5)
-    workspace.change_valence(1, 3)  # at once, the first never comes back
+    session = hand.window.session
+    session.edits.toggle_lock(0)
+    session.edits.change_valence(2, 5)
+    session.edits.change_valence(1, 3)  # at once, the first never comes back
     hand.wait(lambda: hand.state.solved)
     assert [s.valence for s in hand.state.solution.singularities] == [3, 3, 5, 5]
     assert np.isfinite(hand.state.field.H).all()

@@ -51,14 +51,14 @@ def test_sphere_to_six_patches_to_quads_to_a_file(hand: Hand, tmp_path: Path) ->
     assert len(hand.state.separatrices.valences) == 12
 
     # the layout: six patches in colours of which neighbours differ
-    window.workspace.toggle_layer("layout")
+    window.session.looks.toggle_layer("layout")
     hand.wait()
     assert hand.state.made.layout.patches == 6
     assert hand.state.made.layout.conforming
     picture = hand.picture()
     shown = [color for color in PATCHES if count_color(picture, color) > 200]
     assert len(shown) >= 2
-    window.workspace.toggle_layer("layout")
+    window.session.looks.toggle_layer("layout")
 
     # about 1 500 quads
     panel = window.quads_panel
@@ -163,7 +163,7 @@ def test_separatrices_follow_a_drag(hand: Hand) -> None:
         if new.separatrices is not old.separatrices:
             seen.append(new.separatrices)
 
-    hand.window.workspace.changed.connect(watch)
+    hand.window.session.observers.append(watch)
     hand.drag(start, end)
     hand.wait(lambda: hand.state.meshes.of is hand.state.field)  # in step when the mouse rests
     followed = hand.state.separatrices
@@ -176,11 +176,11 @@ def test_separatrices_follow_a_drag(hand: Hand) -> None:
     assert hand.shows(BLUE, hand.place(followed.points[len(followed.points) // 2]), line=True)
     hand.release(end)
     hand.wait(lambda: hand.state.made.settled)
-    hand.window.workspace.changed.disconnect(watch)
+    hand.window.session.observers.remove(watch)
     assert hand.state.separatrices is not followed
 
     # hidden, they are not traced either
-    hand.window.workspace.toggle_layer("separatrices")
+    hand.window.session.looks.toggle_layer("separatrices")
     before = hand.state.meshes
     hand.drag(end, start)
     hand.wait(lambda: hand.state.field is not before.of)
@@ -218,7 +218,7 @@ def test_a_field_that_misses_a_boundary_is_refused_and_one_click_mends_it(
 
 def test_the_layout_layer_says_why_there_is_none(hand: Hand, isotropic_plate: str) -> None:
     hand.open(isotropic_plate)
-    hand.window.workspace.toggle_layer("layout")
+    hand.window.session.looks.toggle_layer("layout")
     hand.wait(lambda: hand.state.message is not None)
     labels = [b.text() for b in hand.window.centre.message_bar.action_buttons]
     assert labels == ["Make valid", "Solve anisotropic"]
@@ -244,14 +244,14 @@ def test_loops_that_do_not_close_on_a_closed_surface_are_mended_by_one_click(han
 
 def test_the_layout_layer_says_why_each_time_it_is_shown(hand: Hand, isotropic_plate: str) -> None:
     hand.open(isotropic_plate)
-    hand.window.workspace.toggle_layer("layout")
+    hand.window.session.looks.toggle_layer("layout")
     hand.wait(lambda: hand.state.message is not None)
     said = hand.state.message.text
     # hidden, it has nothing to say; shown again, it has
-    hand.window.workspace.toggle_layer("layout")
+    hand.window.session.looks.toggle_layer("layout")
     hand.wait()
     assert hand.state.message is None
-    hand.window.workspace.toggle_layer("layout")
+    hand.window.session.looks.toggle_layer("layout")
     hand.wait()
     assert hand.state.message is not None
     assert hand.state.message.text == said
@@ -266,7 +266,7 @@ def test_the_layout_layer_says_why_each_time_it_is_shown(hand: Hand, isotropic_p
     # what was asked for by hand stays as it was when the layer is hidden
     hand.trigger("mesh")
     hand.wait()
-    hand.window.workspace.toggle_layer("layout")
+    hand.window.session.looks.toggle_layer("layout")
     hand.wait()
     assert hand.state.message is not None
 
@@ -292,10 +292,10 @@ def test_stop_while_quads_are_made(hand: Hand) -> None:
         if new.progress is not None:
             stages.append(new.progress.stage)
             if new.progress.stage == "filling the patches":
-                hand.window.workspace.changed.disconnect(stop_soon)
+                hand.window.session.observers.remove(stop_soon)
                 stop.trigger()
 
-    hand.window.workspace.changed.connect(stop_soon)
+    hand.window.session.observers.append(stop_soon)
     hand.trigger("mesh")
     hand.wait(lambda: hand.state.message is not None)
     assert "choosing numbers of quads" in stages

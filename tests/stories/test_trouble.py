@@ -98,7 +98,7 @@ def test_where_the_trouble_is_can_be_seen(hand: Hand, tmp_path: Path) -> None:
     assert hand.window.viewport.isVisible()
     assert hand.shows(PROBLEM, hand.place((0.5, 0.5, 0.0)), line=True)
     assert not hand.shows(PROBLEM, hand.place((0.5, 0.0, 0.0)))
-    hand.window.workspace.dismiss()  # dismissed
+    hand.window.session.dismiss()  # dismissed
     assert hand.window.centre.empty.isVisible()
 
 
@@ -213,7 +213,7 @@ def test_validity_follows_a_drag_at_once(hand: Hand) -> None:
 
 def test_dropped_on_the_boundary_is_told_and_undone(hand: Hand) -> None:
     hand.open("disk-4")
-    trials, surface = hand.window.workspace.trials, hand.state.shown_surface
+    trials, surface = hand.window.session.trials, hand.state.shown_surface
     rim = surface.point_at_vertex(int(surface.boundary_loops[0][0]))
     trials.start_drag(0)
     trials.drag_to(rim)

@@ -1,4 +1,4 @@
-"""What stands in the docks: each panel shows a `SessionState` and calls verbs of the workspace."""
+"""What stands in the docks: each panel shows a `SessionState` and calls verbs of the session."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from crossview.gui.workspace import Workspace
+from crossview.session.session import Session
 from crossview.session.state import SessionState
 from crossview.view.texts import count, degrees
 
@@ -26,9 +26,9 @@ STILL_MS = 600
 class FeaturesBox(QWidget):
     """An angle that is shown as it changes and taken when it rests, and buttons."""
 
-    def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._workspace = workspace
+        self._session = session
         self.sharp = QCheckBox("Features over")
         self.sharp.setToolTip("Crosses follow edges over which the surface bends by more than this")
         self.angle = QDoubleSpinBox()
@@ -50,11 +50,11 @@ class FeaturesBox(QWidget):
         self._still = QTimer(self)
         self._still.setSingleShot(True)
         self._still.setInterval(STILL_MS)
-        self._still.timeout.connect(workspace.marks.accept)
+        self._still.timeout.connect(session.feature_marks.accept)
         self.sharp.toggled.connect(self._toggled)
         self.angle.valueChanged.connect(self._try)
-        self.mark.clicked.connect(lambda: workspace.marks.take_tool())
-        self.clear.clicked.connect(lambda: workspace.marks.clear())
+        self.mark.clicked.connect(lambda: session.feature_marks.take_tool())
+        self.clear.clicked.connect(lambda: session.feature_marks.clear())
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(4)
@@ -90,12 +90,12 @@ class FeaturesBox(QWidget):
 
     def _toggled(self, on: bool) -> None:
         self._still.stop()
-        self._workspace.marks.try_angle(self.angle.value() if on else None)
-        self._workspace.marks.accept()
+        self._session.feature_marks.try_angle(self.angle.value() if on else None)
+        self._session.feature_marks.accept()
 
     def _try(self, angle: float) -> None:
         if self.sharp.isChecked():
-            self._workspace.marks.try_angle(angle)
+            self._session.feature_marks.try_angle(angle)
             self._still.start()
 
 

@@ -19,8 +19,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from crossview.gui.workspace import Workspace
 from crossview.scene import LayerKind, LayerSettings
+from crossview.session.session import Session
 from crossview.view.colors import CYCLIC, DIVERGING, color_table
 from crossview.view.scalars import SCALARS
 
@@ -32,10 +32,10 @@ FACTOR = 4.0  # sliders of factors go from 1/FACTOR to FACTOR, 1 in the middle
 class LayerEditor(QWidget):
     """Edits the `LayerSettings` of one kind of layer."""
 
-    def __init__(self, kind: LayerKind, workspace: Workspace) -> None:
+    def __init__(self, kind: LayerKind, session: Session) -> None:
         super().__init__()
         self._name = kind.name
-        self._workspace = workspace
+        self._session = session
         self._refresh: list[Callable[[LayerSettings], None]] = []
         self._form = QFormLayout(self)
         self._form.setContentsMargins(10, 4, 10, 4)
@@ -59,8 +59,8 @@ class LayerEditor(QWidget):
             refresh(settings)
 
     def _set(self, **changes: Any) -> None:
-        settings = replace(self._workspace.state.layers[self._name], **changes)
-        self._workspace.set_layer(self._name, settings)
+        settings = replace(self._session.state.layers[self._name], **changes)
+        self._session.looks.set_layer(self._name, settings)
 
     def _add_slider(
         self,

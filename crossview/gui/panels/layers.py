@@ -15,8 +15,8 @@ from PySide6.QtWidgets import (
 
 from crossview.gui.icons import icon
 from crossview.gui.panels.layer_settings import LayerEditor
-from crossview.gui.workspace import Workspace
 from crossview.scene import LAYERS
+from crossview.session.session import Session
 from crossview.session.state import SessionState
 
 ROW, LEAST_ROWS = 24, 5
@@ -25,9 +25,9 @@ ROW, LEAST_ROWS = 24, 5
 class LayersPanel(QWidget):
     """List of layers; a click on the eye shows or hides, a click on the name selects."""
 
-    def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._workspace = workspace
+        self._session = session
         self.list = QListWidget()
         self.list.setFrameShape(QFrame.Shape.NoFrame)
         self.list.setIconSize(QSize(18, 18))
@@ -39,7 +39,7 @@ class LayersPanel(QWidget):
             item = QListWidgetItem(kind.label)
             item.setSizeHint(QSize(0, ROW))
             self.list.addItem(item)
-            self.editors[kind.name] = LayerEditor(kind, workspace)
+            self.editors[kind.name] = LayerEditor(kind, session)
             self.settings.addWidget(self.editors[kind.name])
         self.list.setMinimumHeight(LEAST_ROWS * ROW)
         self.list.setMaximumHeight(ROW * len(LAYERS) + 4)
@@ -51,7 +51,7 @@ class LayersPanel(QWidget):
         layout.setSpacing(4)
         layout.addWidget(self.list, 3)
         layout.addWidget(self.settings, 1)
-        self.show_state(None, workspace.state)
+        self.show_state(None, session.state)
 
     def show_state(self, old: SessionState | None, new: SessionState) -> None:
         """Follow the window's state."""
@@ -67,4 +67,4 @@ class LayersPanel(QWidget):
     def _pressed(self, item: QListWidgetItem) -> None:
         place = self.list.viewport().mapFromGlobal(self.list.cursor().pos())
         if place.x() < 28:
-            self._workspace.toggle_layer(LAYERS[self.list.row(item)].name)
+            self._session.looks.toggle_layer(LAYERS[self.list.row(item)].name)

@@ -24,8 +24,8 @@ from PySide6.QtWidgets import (
 
 from crossview.gui.icons import icon
 from crossview.gui.panels.singularity_model import LOCK, POSITION, VALENCE, SingularityModel
-from crossview.gui.workspace import Workspace
 from crossview.session.commands import MAX_VALENCE, MIN_VALENCE
+from crossview.session.session import Session
 from crossview.session.state import SessionState
 
 
@@ -49,12 +49,12 @@ class SingularitiesPanel(QWidget):
     """Table of the singularities; the selection is shared with the scene."""
 
     def __init__(
-        self, workspace: Workspace, actions: Mapping[str, QAction], parent: QWidget | None = None
+        self, session: Session, actions: Mapping[str, QAction], parent: QWidget | None = None
     ) -> None:
         super().__init__(parent)
-        self._workspace = workspace
+        self._session = session
         self._actions = actions
-        self.model = SingularityModel(workspace)
+        self.model = SingularityModel(session, self)
         self.table = self._make_table()
         buttons = QHBoxLayout()
         buttons.setContentsMargins(8, 0, 8, 0)
@@ -76,7 +76,7 @@ class SingularitiesPanel(QWidget):
         layout.addWidget(self.table, 1)
         layout.addLayout(buttons)
 
-        self.show_state(workspace.state, workspace.state)
+        self.show_state(session.state, session.state)
 
     def show_state(self, old: SessionState, new: SessionState) -> None:
         """Follow the window's state."""
@@ -142,13 +142,13 @@ class SingularitiesPanel(QWidget):
 
     def _clicked(self, index: QModelIndex) -> None:
         if index.column() == LOCK:
-            self._workspace.toggle_lock(index.row())
+            self._session.edits.toggle_lock(index.row())
 
     def _current_changed(self, current: QModelIndex) -> None:
-        if current.isValid() and current.row() != self._workspace.state.focus.selected:
+        if current.isValid() and current.row() != self._session.state.focus.selected:
             held = QGuiApplication.keyboardModifiers()
             both = bool(held & Qt.KeyboardModifier.ControlModifier)
-            self._workspace.select(current.row(), both)
+            self._session.pointer.select(current.row(), both)
 
     def _select(self, row: int | None) -> None:
         if row is None:

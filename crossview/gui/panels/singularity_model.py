@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, Qt
+from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, QPersistentModelIndex, Qt
 
 from crossview.gui.icons import dot_icon, icon
-from crossview.gui.workspace import Workspace
+from crossview.session.session import Session
 from crossview.session.state import SessionState
 from crossview.view.colors import valence_color
 from crossview.view.texts import position, signed
@@ -21,11 +21,11 @@ AnyIndex = QModelIndex | QPersistentModelIndex
 
 
 class SingularityModel(QAbstractTableModel):
-    """Rows are the state's singularities; editing the valence asks the workspace."""
+    """Rows are the state's singularities; editing the valence asks the session."""
 
-    def __init__(self, workspace: Workspace) -> None:
-        super().__init__(workspace)
-        self._workspace = workspace
+    def __init__(self, session: Session, parent: QObject) -> None:
+        super().__init__(parent)
+        self._session = session
         self._singularities: tuple[Singularity, ...] = ()
         self._positions: list[str] = []
 
@@ -86,10 +86,10 @@ class SingularityModel(QAbstractTableModel):
         return None
 
     def setData(self, index: AnyIndex, value: Any, role: int = Role.EditRole) -> bool:
-        """Change a valence through the workspace, so that it can be undone."""
+        """Change a valence through the session, so that it can be undone."""
         if role != Role.EditRole or index.column() != VALENCE:
             return False
-        self._workspace.change_valence(index.row(), int(value))
+        self._session.edits.change_valence(index.row(), int(value))
         return True
 
     def _text(self, row: int, column: int) -> str | None:

@@ -8,9 +8,9 @@ from PySide6.QtWidgets import QFormLayout, QLabel, QScrollArea, QWidget
 
 from crossview.gui.panels.features import FeaturesBox
 from crossview.gui.panels.scrolling import scrolled
-from crossview.gui.scene_view import poor_faces
-from crossview.gui.workspace import Workspace
 from crossview.session.document import Document
+from crossview.session.pictures import poor_faces
+from crossview.session.session import Session
 from crossview.session.state import SessionState
 from crossview.view.texts import count
 from solvers.surface.trisurface import TriSurface
@@ -35,7 +35,7 @@ class Hovered(QLabel):
 class SurfacePanel(QScrollArea):
     """Shows the facts of the document's surface; scrolls where there are many notes."""
 
-    def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.name = QLabel("Nothing open")
         self.name.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
@@ -44,8 +44,8 @@ class SurfacePanel(QScrollArea):
         self.name.setFont(font)
         self.counts, self.topology, self.quality = QLabel(), QLabel(), QLabel()
         self.problems = Hovered()
-        self.problems.hovered.connect(workspace.show_poor)
-        self.features = FeaturesBox(workspace)
+        self.problems.hovered.connect(session.looks.show_poor)
+        self.features = FeaturesBox(session)
         self.notes = QLabel()
         self.notes.setWordWrap(True)
         form = QFormLayout()

@@ -17,8 +17,8 @@ from PySide6.QtWidgets import (
 )
 
 from crossview.gui.icons import dot_icon
-from crossview.gui.workspace import Workspace
 from crossview.session.mending import mendings
+from crossview.session.session import Session
 from crossview.session.state import SessionState
 from crossview.view.colors import BAD, GOOD, WAITING, condition_color
 from crossview.view.texts import degrees, signed
@@ -28,7 +28,7 @@ DOT = QSize(14, 14)
 BAR = 4
 
 
-class Verdict(QFrame):
+class VerdictRow(QFrame):
     """A dot, what it is about, and a value at the right.
 
     Parameters
@@ -98,12 +98,12 @@ class ValidityPanel(QWidget):
     """Says whether the configuration is valid, by how much not, and what would mend it."""
 
     def __init__(
-        self, workspace: Workspace, make_valid: QAction, parent: QWidget | None = None
+        self, session: Session, make_valid: QAction, parent: QWidget | None = None
     ) -> None:
         super().__init__(parent)
-        self._workspace = workspace
+        self._session = session
         self.make_valid = _button(make_valid)
-        self.budget = Verdict()
+        self.budget = VerdictRow()
         font = self.budget.text.font()
         font.setBold(True)
         self.budget.text.setFont(font)
@@ -115,7 +115,7 @@ class ValidityPanel(QWidget):
         self._offers.setContentsMargins(30, 0, 8, 6)
         self._offers.setSpacing(4)
         self.buttons: list[QPushButton] = []
-        self.rows: list[Verdict] = []
+        self.rows: list[VerdictRow] = []
         self._list = QWidget()
         self._row_layout = QVBoxLayout(self._list)
         self._row_layout.setContentsMargins(0, 0, 0, 0)
@@ -144,7 +144,7 @@ class ValidityPanel(QWidget):
         bottom.setContentsMargins(30, 4, 8, 4)
         bottom.addWidget(self.make_valid)
         layout.addLayout(bottom)
-        self.show_state(None, workspace.state)
+        self.show_state(None, session.state)
 
     def show_state(self, old: SessionState | None, new: SessionState) -> None:
         """Follow the window's state."""
@@ -189,7 +189,7 @@ class ValidityPanel(QWidget):
         self.buttons = []
         for offer in offers:
             button = QPushButton(offer.label)
-            button.clicked.connect(lambda _=False, offer=offer: self._workspace.carry_out(offer))
+            button.clicked.connect(lambda _=False, offer=offer: self._session.carry_out(offer))
             self._offers.addWidget(button)
             self.buttons.append(button)
 
@@ -218,11 +218,13 @@ class ValidityPanel(QWidget):
             row.deleteLater()
         while len(self.rows) < count:
             number = len(self.rows)
-            row = Verdict(condition_color(number))
+            row = VerdictRow(condition_color(number))
             row.hovered.connect(
-                lambda inside, number=number: self._workspace.point_out(number if inside else None)
+                lambda inside, number=number: self._session.pointer.point_out(
+                    number if inside else None
+                )
             )
-            row.clicked.connect(lambda number=number: self._workspace.toggle_pin(number))
+            row.clicked.connect(lambda number=number: self._session.pointer.toggle_pin(number))
             self._row_layout.insertWidget(number, row)
             self.rows.append(row)
 

@@ -25,8 +25,8 @@ def shown(hand: Hand) -> np.ndarray:
 def test_it_shows_what_will_be_written(hand: Hand, tmp_path: Path) -> None:
     hand.open("disk-4")
     large = replace(hand.state.layers["singularities"], size=3.0)
-    hand.window.workspace.set_layer("singularities", large)
-    hand.window.workspace.toggle_layer("separatrices")  # they are as blue
+    hand.window.session.looks.set_layer("singularities", large)
+    hand.window.session.looks.toggle_layer("separatrices")  # they are as blue
     panel = hand.window.export_panel
     assert panel.preview.pixmap().isNull()  # nobody has looked yet
     hand.window.docks["Export"].raise_()
@@ -39,7 +39,7 @@ def test_it_shows_what_will_be_written(hand: Hand, tmp_path: Path) -> None:
     assert blue > 20
 
     # hidden in the window, hidden in the figure
-    hand.window.workspace.toggle_layer("singularities")
+    hand.window.session.looks.toggle_layer("singularities")
     hand.wait(lambda: count_color(shown(hand), valence_color(3)) == 0)
 
     # turned, resized, on another ground
@@ -48,7 +48,7 @@ def test_it_shows_what_will_be_written(hand: Hand, tmp_path: Path) -> None:
     hand.wait(lambda: shown(hand).shape != before.shape or (shown(hand) != before).any())
     panel.width_box.setValue(900)
     hand.wait(lambda: shown(hand).shape[1] < shown(hand).shape[0])
-    hand.window.workspace.toggle_dark()
+    hand.window.session.looks.toggle_dark()
     dark = np.round(255 * np.array(rgb(THEMES["dark"].background)))
     hand.wait(lambda: np.abs(shown(hand)[-30, 2, :3] - dark).max() <= 2)
 

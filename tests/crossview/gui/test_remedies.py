@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from crossview.gui.store import offered
 from crossview.session.message import Message, ShowWhere
 from crossview.session.opening import Opening
+from crossview.session.store import offered
 from crossview.workflow.quads import MeshOptions
 from solvers.errors import CrossviewError, SurfaceError
 from solvers.layouts.errors import LayoutError
@@ -69,7 +69,7 @@ def test_a_verdict_in_other_words_leads_to_the_same_quads(hand: Hand) -> None:
     """The whole way: the message's buttons carry out their kinds."""
     hand.open("annulus-far")
     refused = LayoutError("?", remedies=[replace(MAKE_VALID, words="!")])
-    hand.window.workspace.fail(refused, "mesh", MeshOptions(target_quads=300))
+    hand.window.session.fail(refused, "mesh", MeshOptions(target_quads=300))
     (button,) = hand.window.centre.message_bar.action_buttons
     assert button.text() == "Make valid"
     button.click()
@@ -84,9 +84,9 @@ def test_quads_are_not_waited_for_after_a_stop(hand: Hand) -> None:
         (Message("Stopped, as a word", "hint", "info"), True),
     ):
         hand.open("disk-4")
-        hand.window.workspace.meshing.wait_for(MeshOptions(target_quads=300))
-        hand.window.workspace.update(hand.state.said(message))
-        hand.window.workspace.solving.pursue()
+        hand.window.session.quad_making.wait_for(MeshOptions(target_quads=300))
+        hand.window.session.update(hand.state.said(message))
+        hand.window.session.solving.pursue()
         hand.wait()
         assert (hand.state.made.quads is not None) == waited
 

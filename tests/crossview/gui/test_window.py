@@ -14,7 +14,6 @@ from crossview.gui.action_table import ACTIONS, TOOLBAR
 from crossview.gui.palette import Palette
 from crossview.gui.recent import MOST, recent, remember
 from crossview.view.colors import LOOP, valence_color
-from crossview.view.texts import count, degrees, position, signed
 from solvers.primitives import BUILTIN
 from tests.windowing import Hand
 
@@ -198,12 +197,12 @@ def test_hovering_a_condition_points_out_its_loop(hand: Hand) -> None:
 def test_eyes_and_sliders_of_the_layers(hand: Hand) -> None:
     hand.open("disk-4")
     panel = hand.window.layers_panel
-    hand.window.workspace.toggle_layer("separatrices")  # three of them meet there, as blue
+    hand.window.session.looks.toggle_layer("separatrices")  # three of them meet there, as blue
     place = hand.place_of(0)
     assert hand.shows(valence_color(3), place)
-    hand.window.workspace.toggle_layer("singularities")
+    hand.window.session.looks.toggle_layer("singularities")
     assert not hand.shows(valence_color(3), place)
-    hand.window.workspace.toggle_layer("singularities")
+    hand.window.session.looks.toggle_layer("singularities")
     assert hand.shows(valence_color(3), place)
     before = hand.picture()
     slider = panel.editors["crosses"].findChild(QSlider, "density")
@@ -267,26 +266,6 @@ def test_dark_scene(hand: Hand) -> None:
     assert hand.shows("#ffffff", corner, reach=1)
     hand.trigger("dark")
     assert not hand.shows("#ffffff", corner, reach=1)
-
-
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
-        (degrees(0.0), "0°"),
-        (degrees(-12.04), "−12.0°"),
-        (degrees(0.314), "0.31°"),
-        (degrees(0.0123), "0.012°"),
-        (signed(0), "0"),
-        (signed(2), "+2"),
-        (signed(-1), "−1"),
-        (count(1, "vertex", "vertices"), "1 vertex"),
-        (count(2304, "vertex", "vertices"), "2\u2009304 vertices"),
-        (position((0.5, -0.25, 0.0), 2.0), "0.50, −0.25, 0.00"),
-        (position((0.0, 1e-9, 0.0), 2.0), "0.00, 0.00, 0.00"),  # the middle, as exact as the rest
-    ],
-)
-def test_numbers_have_sensible_digits(text: str, expected: str) -> None:
-    assert text == expected
 
 
 def test_looking_from_three_sides(hand: Hand) -> None:

@@ -11,8 +11,8 @@ from crossview.cases.gallery import path_of
 from crossview.cases.model import Case
 from crossview.session.document import Document
 from crossview.session.live import LiveBase, LiveEdit
+from crossview.session.live_tracer import LiveTracer
 from crossview.session.meshes import NO_MESHES, lay_out, make_quads, trace
-from crossview.session.tracing import LiveTracer
 from crossview.workflow.pipeline import Pipeline, Solution
 from crossview.workflow.problem import Problem
 from crossview.workflow.quads import MeshOptions

@@ -1,7 +1,6 @@
 """What is shown follows from what happens, and its parts agree: no window, no thread."""
 
 from dataclasses import replace
-from typing import TypeVar
 
 import numpy as np
 import pytest
@@ -18,16 +17,15 @@ from crossview.session.commands import (
 from crossview.session.document import Document
 from crossview.session.hand import AddTool, Focus, MarkTool, SelectTool
 from crossview.session.live import LiveEdit, cut, prepare
+from crossview.session.live_tracer import Traced
 from crossview.session.meshes import Meshes, trace
 from crossview.session.message import Message
-from crossview.session.methods import Iterate, MethodSolver
-from crossview.session.moving import Waypoint
+from crossview.session.method_solver import MethodSolver, MethodStep
 from crossview.session.shown import Iterating, Moving, Nothing, Provisional, Solved
 from crossview.session.state import SessionState
-from crossview.session.tracing import Traced
+from crossview.session.waypoints import Waypoint
 from solvers.progress import Progress, run
-
-T = TypeVar("T")
+from tests.crossview.session.headless import known
 
 
 @pytest.fixture(scope="module")
@@ -42,11 +40,11 @@ def found(document: Document) -> Solved:
 
 
 @pytest.fixture(scope="module")
-def iterates(document: Document) -> list[Iterate]:
+def iterates(document: Document) -> list[MethodStep]:
     anisotropic = ChooseMethod("anisotropic").apply(document)
     seen: list[Progress] = []
     run(MethodSolver().solve(anisotropic.problem), seen.append)
-    return [step for step in seen if isinstance(step, Iterate)]
+    return [step for step in seen if isinstance(step, MethodStep)]
 
 
 @pytest.fixture
@@ -56,12 +54,6 @@ def solved(document: Document, found: Solved) -> SessionState:
     assert isinstance(opened.shown, Nothing)
     assert not opened.solved
     return agreeing(opened.solution_found(found))
-
-
-def known(value: T | None) -> T:
-    """A value that is there."""
-    assert value is not None
-    return value
 
 
 def agreeing(state: SessionState) -> SessionState:
@@ -144,7 +136,7 @@ def test_what_is_locked_is_not_taken_hold_of(solved: SessionState, document: Doc
 
 
 def test_iterating_and_what_is_left_of_it(
-    solved: SessionState, document: Document, iterates: list[Iterate]
+    solved: SessionState, document: Document, iterates: list[MethodStep]
 ) -> None:
     anisotropic = ChooseMethod("anisotropic").apply(document)
     chosen = agreeing(solved.document_changed(anisotropic, "choose method", None))

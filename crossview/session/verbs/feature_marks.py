@@ -2,53 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 
-from crossview.gui.store import Store
-from crossview.session.commands import Command, MarkFeatures
+from crossview.session.commands import MarkFeatures
+from crossview.session.edge_picker import EdgePicker
 from crossview.session.hand import FeatureTrial, MarkTool, SelectTool
-from crossview.session.picking import EdgePicker
+from crossview.session.verbs.group import VerbGroup
 from crossview.workflow.marking import Marking
 from solvers.surface.points import SurfacePoint
 from solvers.surface.triangulation import IntArray
 
 
-class Marks:
-    """Tries features out, and makes them one step of the history each.
+class FeatureMarks(VerbGroup):
+    """Tries features out, and makes them one step of the history each."""
 
-    Parameters
-    ----------
-    store : Store
-    do : callable
-        Makes a command one step of the history.
-    """
-
-    def __init__(self, store: Store, do: Callable[[Command], None]) -> None:
-        self._store = store
-        self._do = do
-        self._picker: EdgePicker | None = None
+    _picker: EdgePicker | None = None
 
     def take_tool(self) -> None:
         """Take the tool that marks edges, or put it back when it is in hand."""
-        state = self._store.state
+        state = self._state
         self._store.update(state.tool_taken(SelectTool() if state.mark_tool else MarkTool()))
 
     def try_angle(self, degrees: float | None) -> None:
         """Show which edges are sharper than an angle, and take none yet."""
-        document = self._store.state.document
+        document = self._state.document
         if document is not None:
             marking = replace(document.problem.marking, dihedral_degrees=degrees)
             trial = FeatureTrial(marking, marking.on(document.surface))
-            self._store.update(replace(self._store.state, feature_trial=trial))
+            self._store.update(replace(self._state, feature_trial=trial))
 
     def accept(self) -> None:
         """Take the features that are tried."""
-        trial = self._store.state.feature_trial
-        document = self._store.state.document
-        self._store.update(replace(self._store.state, feature_trial=None))
+        trial = self._state.feature_trial
+        document = self._state.document
+        self._store.update(replace(self._state, feature_trial=None))
         if trial is None or document is None or trial.marking == document.problem.marking:
             return
         degrees = trial.marking.dihedral_degrees
@@ -57,12 +46,12 @@ class Marks:
 
     def clear(self) -> None:
         """Take all marks away."""
-        self._store.update(replace(self._store.state, feature_trial=None))
+        self._store.update(replace(self._state, feature_trial=None))
         self._do(MarkFeatures(Marking(), "remove all features"))
 
     def hover(self, point: SurfacePoint | None, onwards: bool) -> None:
         """Show the edges that a click at a point of the shown surface would mark."""
-        tool = self._store.state.mark_tool
+        tool = self._state.mark_tool
         if tool is None:
             return
         edges = None if point is None else self._edges(point, onwards)
@@ -70,7 +59,7 @@ class Marks:
         if edges is not None and len(edges):
             path = self._edge_picker().vertices_along(self._start(onwards), edges)
         if path is not None or tool.path is not None:
-            self._store.update(self._store.state.tool_taken(replace(tool, path=path)))
+            self._store.update(self._state.tool_taken(replace(tool, path=path)))
 
     def click(self, point: SurfacePoint, onwards: bool) -> None:
         """Mark the edge at a point of the shown surface, or no longer.
@@ -81,12 +70,12 @@ class Marks:
         onwards : bool
             Mark the shortest path from the last click instead.
         """
-        document = self._store.state.document
+        document = self._state.document
         if document is None:
             return
         edges = self._edges(point, onwards)
-        last = self._edge_picker().vertex_at(self._store.state.lifted(point))
-        self._store.update(self._store.state.tool_taken(MarkTool(last)))
+        last = self._edge_picker().vertex_at(self._state.lifted(point))
+        self._store.update(self._state.tool_taken(MarkTool(last)))
         inner = edges[document.surface.edge_faces[edges, 1] >= 0]
         if not len(inner):
             return
@@ -97,18 +86,18 @@ class Marks:
         self._do(MarkFeatures(marking, f"{verb} {what}"))
 
     def _start(self, onwards: bool) -> int | None:
-        tool = self._store.state.mark_tool
+        tool = self._state.mark_tool
         return tool.last if onwards and tool is not None else None
 
     def _edges(self, point: SurfacePoint, onwards: bool) -> IntArray:
-        picker, place = self._edge_picker(), self._store.state.lifted(point)
+        picker, place = self._edge_picker(), self._state.lifted(point)
         start = self._start(onwards)
         if start is None:
             return np.array([picker.edge_at(place)])
         return picker.path(start, place)
 
     def _edge_picker(self) -> EdgePicker:
-        document = self._store.state.document
+        document = self._state.document
         if document is None:
             raise RuntimeError("there is no surface to mark")
         if self._picker is None or self._picker.surface is not document.surface:

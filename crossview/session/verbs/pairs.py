@@ -5,11 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 
-from crossview.gui.solving import Solving
-from crossview.gui.store import Store
 from crossview.session.commands import Command
 from crossview.session.document import Document
-from crossview.session.pairing import (
+from crossview.session.rearrangements import (
     add_pair,
     add_pair_somewhere,
     distribute,
@@ -18,40 +16,28 @@ from crossview.session.pairing import (
     rotate,
     split_one,
 )
+from crossview.session.verbs.group import VerbGroup
 from solvers.surface.points import SurfacePoint
 
 
-class Pairs:
-    """Pairs added, singularities merged and split, configurations mirrored, turned, completed.
-
-    Parameters
-    ----------
-    store : Store
-    solving : Solving
-    do : callable
-        Makes a command one step of the history.
-    """
-
-    def __init__(self, store: Store, solving: Solving, do: Callable[[Command], None]) -> None:
-        self._store = store
-        self._solving = solving
-        self._do = do
+class Pairs(VerbGroup):
+    """Pairs added, singularities merged and split, configurations mirrored, turned, completed."""
 
     def add(self, point: SurfacePoint | None) -> None:
         """Add a pair around `point` of the shown surface; None: where there is most room."""
-        state = self._store.state
+        state = self._state
         if state.document is None:
             return
         if point is not None:
             self._at_once(partial(add_pair, point=state.lifted(point)))
             return
-        self._store.update(self._store.state.unsaid("edit"))
+        self._store.update(self._state.unsaid("edit"))
         job = partial(add_pair_somewhere, state.document)
         self._solving.run(job, self._do, self._failed)
 
     def merge(self) -> None:
         """Make one of the two selected singularities."""
-        pair = self._store.state.focus.pair
+        pair = self._state.focus.pair
         if pair is not None:
             self._at_once(partial(merge, one=pair[0], other=pair[1]))
 
@@ -69,9 +55,9 @@ class Pairs:
 
     def distribute(self) -> None:
         """Add what the index budget lacks."""
-        document = self._store.state.document
+        document = self._state.document
         if document is not None:
-            self._store.update(self._store.state.unsaid("edit"))
+            self._store.update(self._state.unsaid("edit"))
             self._solving.run(partial(distribute, document), self._do, self._failed)
 
     def _failed(self, error: Exception) -> None:
@@ -79,6 +65,6 @@ class Pairs:
         self._solving.resume()
 
     def _at_once(self, make: Callable[[Document], Command]) -> None:
-        document = self._store.state.document
+        document = self._state.document
         if document is not None:
             self._store.attempt("edit", lambda: self._do(make(document)))

@@ -20,7 +20,7 @@ DRAWN_EVERY = 0.2
 
 
 @dataclass(frozen=True, eq=False)
-class Iterate(Progress):
+class MethodStep(Progress):
     """An iteration of a method, perhaps with what is to be drawn.
 
     Parameters
@@ -51,7 +51,7 @@ class MethodSolver:
         self._start: tuple[AlignedField, CrossField] | None = None
 
     def solve(self, problem: Problem) -> Generator[Progress, None, Solved]:
-        """Solve with refinement by the problem's method; yields an `Iterate` per iteration."""
+        """Solve with refinement by the problem's method; yields a `MethodStep` per iteration."""
         base: LiveBase | None = None
         drawn = -DRAWN_EVERY
 
@@ -66,7 +66,7 @@ class MethodSolver:
                 field = with_directions(step.so_far.field)
                 drawn = time.monotonic()
             start = self._start_of(aligned)
-            return Iterate(step.stage, step.fraction, step, base, start, field)
+            return MethodStep(step.stage, step.fraction, step, base, start, field)
 
         return self._ready((yield from relayed(self._pipeline.solve(problem), show)))
 

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import traceback
+from collections import deque
 from collections.abc import Callable
 from dataclasses import fields
-
-from PySide6.QtCore import QObject, Signal
 
 from crossview.session.message import Message, ShowWhere
 from crossview.session.opening import Opening
@@ -19,14 +18,15 @@ from solvers.remedies import Remedy, RepairSurface, TakeLargest, UseMethod
 MOST_LISTED = 200
 
 
-class Store(QObject):
-    """Holds the state; emits `changed(old, new)` after every change of it."""
+class Store:
+    """Holds the state, and tells observers of each change of it."""
 
-    changed = Signal(object, object)
-
-    def __init__(self, parent: QObject | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        self.observers: list[Callable[[SessionState, SessionState], object]] = []
+        """Called with the states before and after each change, in the order of the changes."""
         self._state = SessionState()
+        self._untold: deque[tuple[SessionState, SessionState]] = deque()
+        self._telling = False
 
     @property
     def state(self) -> SessionState:
@@ -36,9 +36,16 @@ class Store(QObject):
     def update(self, new: SessionState) -> None:
         """Go on to the next state; nothing happens when no field differs."""
         old = self._state
-        if any(getattr(old, f.name) is not getattr(new, f.name) for f in fields(new)):
-            self._state = new
-            self.changed.emit(old, new)
+        if all(getattr(old, f.name) is getattr(new, f.name) for f in fields(new)):
+            return
+        self._state = new
+        self._untold.append((old, new))
+        if not self._telling:  # else an observer has changed it: all hear of the change before
+            self._tell()
+
+    def dismiss(self) -> None:
+        """Take the message away."""
+        self.update(self.state.said(None))
 
     def fail(
         self,
@@ -81,6 +88,16 @@ class Store(QObject):
             self.fail(CrossviewError(error.strerror or str(error), str(error.filename)), cause)
         else:
             self.update(self.state.unsaid(cause))
+
+    def _tell(self) -> None:
+        self._telling = True
+        try:
+            while self._untold:
+                old, new = self._untold.popleft()
+                for tell in tuple(self.observers):
+                    tell(old, new)
+        finally:
+            self._telling = False
 
 
 def offered(

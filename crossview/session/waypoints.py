@@ -10,7 +10,7 @@ from typing import TypeVar
 from crossview.session.commands import Command, ReplaceSingularities
 from crossview.session.document import Document
 from crossview.session.live import LiveBase, with_directions
-from crossview.session.methods import DRAWN_EVERY
+from crossview.session.method_solver import DRAWN_EVERY
 from solvers.errors import CrossviewError
 from solvers.fields.crossfield import CrossField
 from solvers.fields.natural import NATURAL_ALIGNMENTS, CrossesStep, natural_singularities

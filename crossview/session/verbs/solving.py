@@ -6,41 +6,42 @@ from collections.abc import Callable, Generator
 from functools import partial
 from typing import TypeVar
 
-from PySide6.QtCore import QTimer
-
-from crossview.gui.background import Background
-from crossview.gui.store import Store
+from crossview.session.background import Background
 from crossview.session.live import LiveBase, LiveEdit, cut, prepare
+from crossview.session.live_tracer import LiveTracer, Traced
+from crossview.session.loop import Loop
 from crossview.session.message import Message
-from crossview.session.methods import MethodSolver
+from crossview.session.method_solver import MethodSolver
 from crossview.session.shown import Solved
-from crossview.session.tracing import LiveTracer, Traced
+from crossview.session.store import Store
 from crossview.view.texts import energy
 from solvers.progress import Progress
 from solvers.surface.triangulation import IntArray
 
 T = TypeVar("T")
 
-STILL_MS = 150
-"""How long the mouse is still before separatrices left out in a drag are traced."""
+STILL = 0.15
+"""How long the mouse is still before separatrices left out in a drag are traced, seconds."""
 
 
 class Solving:
-    """Runs jobs for a store and puts their results into its state."""
+    """Runs jobs for a store and puts their results into its state.
 
-    def __init__(self, store: Store) -> None:
+    Parameters
+    ----------
+    store : Store
+    loop : Loop
+        The thread that results are put in on.
+    """
+
+    def __init__(self, store: Store, loop: Loop) -> None:
         self._store = store
         self._solver = MethodSolver()
-        self._background = Background(store)
-        self._background.progressed.connect(self._progressed)
-        self._background.stopped.connect(lambda: self._when_stopped())
+        self._background = Background(loop, self._progressed)
         self._when_stopped: Callable[[], None] = self._say_stopped
         self._pursuits: list[Callable[[], bool]] = [self._cut]
         self._tracer = LiveTracer()
-        self._still = QTimer(store)
-        self._still.setSingleShot(True)
-        self._still.setInterval(STILL_MS)
-        self._still.timeout.connect(self._trace_live)
+        self._still = loop.timer(STILL, self._trace_live)
 
     @property
     def busy(self) -> bool:
@@ -102,8 +103,10 @@ class Solving:
             any(pursuit() for pursuit in self._pursuits)
 
     def stop(self) -> None:
-        """Stop; what is shown stays."""
-        self._background.stop()
+        """Stop at the user's wish; what is shown stays."""
+        if self.busy:
+            self._background.forget()
+            self._when_stopped()
 
     def close(self) -> None:
         """End the background thread."""

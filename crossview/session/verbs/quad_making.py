@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from functools import partial
 
-from crossview.gui.solving import Solving
-from crossview.gui.store import Store
 from crossview.session.meshes import Meshes, lay_out, make_quads, trace
 from crossview.session.state import SessionState
+from crossview.session.store import Store
+from crossview.session.verbs.solving import Solving
 from crossview.view.values import Elements
 from crossview.workflow.quads import MeshOptions
 from solvers.fields.crossfield import CrossField
@@ -18,7 +18,7 @@ KEPT = 4
 """Fields whose meshes are kept: one for each method."""
 
 
-class Meshing:
+class QuadMaking:
     """Makes in the background what is shown of separatrices, layout and quads.
 
     Parameters
@@ -35,7 +35,7 @@ class Meshing:
         self._next: MeshOptions | None = None
         self._told: LayoutError | None = None
         solving.pursue_also(self.pursue)
-        store.changed.connect(self._forget)
+        store.observers.append(self._forget)
 
     def make(self, options: MeshOptions) -> None:
         """Make the quads of the present solution; one that is still to come is waited for."""

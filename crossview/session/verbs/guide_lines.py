@@ -7,49 +7,56 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from crossview.gui.background import Background
-from crossview.gui.store import Store
-from crossview.session.guiding import Guidance, GuideCurve
+from crossview.session.background import Background
+from crossview.session.guide_curves import Guidance, GuideCurve
 from crossview.session.live import LiveEdit
+from crossview.session.loop import Loop
 from crossview.session.state import SessionState
+from crossview.session.store import Store
 from crossview.view.colors import condition_color
 from crossview.view.values import GuideLine
 
 
-class Guiding:
+class GuideLines:
     """Asks for guide lines when their subject changes; the latest request wins.
 
     The lines do not depend on where the subject is dragged, so a drag asks once.
+
+    Parameters
+    ----------
+    store : Store
+    loop : Loop
+        The thread that answers come on.
     """
 
-    def __init__(self, store: Store) -> None:
+    def __init__(self, store: Store, loop: Loop) -> None:
         self._store = store
-        self._background = Background(store)
+        self._background = Background(loop)
         self._subject: tuple[Any, ...] | None = None
+        store.observers.append(self._follow)
 
     @property
     def busy(self) -> bool:
         """Whether an answer is still awaited."""
         return self._background.busy
 
-    def follow(self) -> None:
+    def close(self) -> None:
+        """End the background thread."""
+        self._background.close()
+
+    def _follow(self, _: SessionState, state: SessionState) -> None:
         """Bring the lines in line with the state."""
-        state = self._store.state
         subject = _subject(state)
         if subject == self._subject:
             return
         self._subject = subject
         if subject is None:
             self._background.forget()
-            self._store.update(replace(state, guide=()))
+            self._store.update(replace(self._store.state, guide=()))
             return
         _, _, moving, _, condition = subject
         job = partial(_guidance(state, moving).curves, math.radians(state.tolerance), condition)
         self._background.submit(job, self._show, lambda error: self._store.fail(error, "guide"))
-
-    def close(self) -> None:
-        """End the background thread."""
-        self._background.close()
 
     def _show(self, curves: tuple[GuideCurve, ...]) -> None:
         lines = (GuideLine(c.ends, condition_color(c.condition), c.strong) for c in curves)

@@ -5,7 +5,7 @@ import pytest
 
 from crossview.cases.model import Case
 from crossview.session.document import Document
-from crossview.session.guiding import Guidance
+from crossview.session.guide_curves import Guidance
 from crossview.session.live import LiveEdit, prepare
 from solvers.progress import run
 

@@ -1,4 +1,4 @@
-"""From the window's state to what the scene shows: a pure function."""
+"""From the state of a session to what a scene or a figure shows: pure functions."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from crossview.gui.ranges import NO_RANGES, Ranges
-from crossview.scene import Elements, LayerSettings, Marker, SceneView, field_view
 from crossview.session.document import Document
 from crossview.session.hand import Focus, SelectTool
+from crossview.session.held_ranges import NO_RANGES, Ranges
 from crossview.session.state import SessionState
 from crossview.view.colors import condition_color
-from crossview.view.field import feature_lines
+from crossview.view.field import feature_lines, field_view
 from crossview.view.meshes import curves_of, patches_of, quads_of, t_junctions_of
-from crossview.view.scene_view import Background
+from crossview.view.scene_view import Background, LayerSettings, SceneView
+from crossview.view.values import Elements, Marker
 from solvers.fields.crossfield import CrossField
 from solvers.surface.triangulation import FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface

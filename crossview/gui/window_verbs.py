@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import Protocol
 
 from crossview.gui.files import Files
-from crossview.gui.workspace import Workspace
+from crossview.session.session import Session
 
 
-class Verbs(Protocol):
+class WindowVerbs(Protocol):
     """What a window can do; menus, toolbar, shortcuts and palette know no more of it."""
 
     @property
-    def workspace(self) -> Workspace:
+    def session(self) -> Session:
         """The verbs that need no window."""
 
     @property

@@ -11,8 +11,8 @@ from crossview.session.commands import METHOD_LABELS, ChooseMethod
 from crossview.session.document import Document
 from crossview.session.history import History
 from crossview.session.live import LiveBase
-from crossview.session.methods import Iterate, MethodSolver
-from crossview.session.moving import NATURAL_LABELS, Waypoint, move_to_validity, place_natural
+from crossview.session.method_solver import MethodSolver, MethodStep
+from crossview.session.waypoints import NATURAL_LABELS, Waypoint, move_to_validity, place_natural
 from solvers.fields.natural import NATURAL_METHODS
 from solvers.progress import Progress, run
 
@@ -26,7 +26,7 @@ def near() -> Document:
 def test_iterates_are_drawn_on_what_they_are_solved_on(near: Document) -> None:
     seen: list[Progress] = []
     solved = run(MethodSolver().solve(near.problem), seen.append)
-    iterates = [step for step in seen if isinstance(step, Iterate)]
+    iterates = [step for step in seen if isinstance(step, MethodStep)]
     assert [len(i.step.energies) for i in iterates] == list(range(2, len(iterates) + 2))
     first = iterates[0]
     assert first.field is not None  # later ones only if enough time has passed
@@ -41,7 +41,7 @@ def test_iterates_are_drawn_on_what_they_are_solved_on(near: Document) -> None:
 def test_what_is_stopped_is_kept_and_said_to_be_no_more(near: Document) -> None:
     solver = MethodSolver()
     solving = solver.solve(near.problem)
-    iterate = next(step for step in solving if isinstance(step, Iterate))
+    iterate = next(step for step in solving if isinstance(step, MethodStep))
     solving.close()
     kept = run(solver.keep(iterate.step)).solution
     assert not kept.field.convergence.converged

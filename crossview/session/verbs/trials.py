@@ -2,41 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
-from crossview.gui.solving import Solving
-from crossview.gui.store import Store
-from crossview.session.commands import Command, MoveSingularity
-from crossview.session.guiding import Guidance
+from crossview.session.commands import MoveSingularity
+from crossview.session.guide_curves import Guidance
 from crossview.session.hand import Trial
+from crossview.session.verbs.group import VerbGroup
 from solvers.surface.points import SurfacePoint
 
 
-class Trials:
-    """Tries singularities out on the kept factor; only `drop` changes the document.
+class Trials(VerbGroup):
+    """Tries singularities out on the kept factor; only `drop` changes the document."""
 
-    Parameters
-    ----------
-    store : Store
-    solving : Solving
-    do : callable
-        Makes a command one step of the history.
-    """
-
-    def __init__(self, store: Store, solving: Solving, do: Callable[[Command], None]) -> None:
-        self._store = store
-        self._solving = solving
-        self._do = do
-        self._guidance: Guidance | None = None
+    _guidance: Guidance | None = None
 
     def preview(self, point: SurfacePoint | None) -> None:
         """Show what a click of the add tool at `point` of the shown surface would do."""
-        self._store.update(self._store.state.previewed(point))
+        self._store.update(self._state.previewed(point))
 
     def start_drag(self, index: int) -> bool:
         """Take hold of singularity `index`; False when it is locked."""
-        self._store.update(self._store.state.taken_hold(index))
-        state, trial = self._store.state, self._held
+        self._store.update(self._state.taken_hold(index))
+        state, trial = self._state, self._held
         self._guidance = None
         if trial is None or state.document is None:
             return False
@@ -56,26 +41,26 @@ class Trials:
         if self._held is None:
             return
         if keep and self._guidance is not None:
-            point = self._guidance.kept(self._store.state.focus.followed, point)
-        self._store.update(self._store.state.dragged_to(point))
+            point = self._guidance.kept(self._state.focus.followed, point)
+        self._store.update(self._state.dragged_to(point))
         trial = self._held
-        if trial is not None and trial.edit is not None and self._store.state.field is not None:
+        if trial is not None and trial.edit is not None and self._state.field is not None:
             self._solving.try_out(trial.edit)
 
     def drop(self) -> None:
         """Let go: the whole drag becomes one step, and the refined field is solved."""
         trial = self._held
         if trial is not None:
-            self._store.update(self._store.state.let_go())
+            self._store.update(self._state.let_go())
             self._do(MoveSingularity(trial.index, trial.held.point))
 
     def cancel(self) -> None:
         """Let go and put it back."""
         if self._held is not None:
-            self._store.update(self._store.state.let_go())
+            self._store.update(self._state.let_go())
             self._solving.follow()
 
     @property
     def _held(self) -> Trial | None:
-        trial = self._store.state.trial
+        trial = self._state.trial
         return trial if trial is not None and trial.drag else None

@@ -1,0 +1,47 @@
+"""Verbs of how things are drawn."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from crossview.session.store import Store
+from crossview.session.verbs.solving import Solving
+from crossview.view.scene_view import LayerSettings
+
+
+class Looks:
+    """Shows and hides; what a layer newly needs is made in the background.
+
+    Parameters
+    ----------
+    store : Store
+    solving : Solving
+    """
+
+    def __init__(self, store: Store, solving: Solving) -> None:
+        self._store = store
+        self._solving = solving
+
+    def set_layer(self, name: str, settings: LayerSettings) -> None:
+        """Draw one layer otherwise."""
+        state = self._store.state.with_layer(name, settings)
+        self._store.update(state if state.layers["layout"].visible else state.unsaid("layout"))
+        self._solving.pursue()
+
+    def toggle_layer(self, name: str) -> None:
+        """Show or hide a layer."""
+        layer = self._store.state.layers[name]
+        self.set_layer(name, replace(layer, visible=not layer.visible))
+
+    def compare(self) -> None:
+        """Show the error density of the start, or of the result again, on the same range."""
+        state = self._store.state.with_layer_shown("error")
+        self._store.update(replace(state, comparing=not state.comparing))
+
+    def toggle_dark(self) -> None:
+        """Draw on a dark background, or on white again."""
+        self._store.update(replace(self._store.state, dark=not self._store.state.dark))
+
+    def show_poor(self, shown: bool) -> None:
+        """Point out the poor triangles."""
+        self._store.update(replace(self._store.state, poor=shown))
