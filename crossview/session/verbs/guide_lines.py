@@ -5,16 +5,27 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from functools import partial
-from typing import Any
+from typing import NamedTuple
 
 from crossview.session.background import Background
+from crossview.session.document import Document
 from crossview.session.guide_curves import Guidance, GuideCurve
-from crossview.session.live import LiveEdit
+from crossview.session.live import LiveBase, LiveEdit
 from crossview.session.loop import Loop
 from crossview.session.state import SessionState
 from crossview.session.store import Store
 from crossview.view.colors import condition_color
 from crossview.view.values import GuideLine
+
+
+class _Subject(NamedTuple):
+    """What guide lines depend on."""
+
+    base: LiveBase
+    document: Document
+    moving: int
+    valence: int
+    condition: int | None
 
 
 class GuideLines:
@@ -32,7 +43,7 @@ class GuideLines:
     def __init__(self, store: Store, loop: Loop) -> None:
         self._store = store
         self._background = Background(loop)
-        self._subject: tuple[Any, ...] | None = None
+        self._subject: _Subject | None = None
         store.observers.append(self._follow)
 
     @property
@@ -54,8 +65,8 @@ class GuideLines:
             self._background.forget()
             self._store.update(replace(self._store.state, guide=()))
             return
-        _, _, moving, _, condition = subject
-        job = partial(_guidance(state, moving).curves, math.radians(state.tolerance), condition)
+        guidance = _guidance(state, subject)
+        job = partial(guidance.curves, math.radians(state.tolerance), subject.condition)
         self._background.submit(job, self._show, lambda error: self._store.fail(error, "guide"))
 
     def _show(self, curves: tuple[GuideCurve, ...]) -> None:
@@ -63,8 +74,8 @@ class GuideLines:
         self._store.update(replace(self._store.state, guide=tuple(lines)))
 
 
-def _subject(state: SessionState) -> tuple[Any, ...] | None:
-    """Return what the lines depend on: base, document, number, valence, condition."""
+def _subject(state: SessionState) -> _Subject | None:
+    """Return what the lines are to be of, if there are to be any."""
     document, base, budget = state.document, state.base, state.budget
     wanted = state.layers["guide"].visible and state.moving is None
     if document is None or base is None or budget is None or not wanted:
@@ -76,7 +87,7 @@ def _subject(state: SessionState) -> tuple[Any, ...] | None:
         valence = state.trial.singularities[moving].valence
     else:
         valence = document.singularities[moving].valence
-    return base, document, moving, valence, state.focus.followed
+    return _Subject(base, document, moving, valence, state.focus.followed)
 
 
 def _moving(state: SessionState) -> int | None:
@@ -91,10 +102,8 @@ def _moving(state: SessionState) -> int | None:
     return under
 
 
-def _guidance(state: SessionState, moving: int) -> Guidance:
-    trial, document, base = state.trial, state.document, state.base
+def _guidance(state: SessionState, subject: _Subject) -> Guidance:
+    trial = state.trial
     if trial is not None and trial.edit is not None and not trial.drag:
-        return Guidance(trial.edit, moving, placed=False)
-    if document is None or base is None:
-        raise RuntimeError("there is no subject without a document and a base")
-    return Guidance(LiveEdit.start(document, base), moving)
+        return Guidance(trial.edit, subject.moving, placed=False)
+    return Guidance(LiveEdit.start(subject.document, subject.base), subject.moving)
