@@ -17,7 +17,7 @@ from solvers.fields.integrability import Integrability
 from solvers.surface.triangulation import QUARTER, FloatArray, IntArray
 
 PASSES, ROUNDING = 3, 1e-14
-"""Most solves that close images, and the gap, in parts of them, that is left for rounding."""
+"""Most solves that close images, and the gap, in parts of them, left for rounding. Chosen."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -41,7 +41,7 @@ from solvers.surface.graphs import HalfedgeGraph, walk_back
 from solvers.surface.triangulation import IntArray
 
 MOST_CUTS = 50
-"""Double edges that are looked at together."""
+"""Double edges that are looked at together. Chosen."""
 
 
 @dataclass(frozen=True, eq=False)
