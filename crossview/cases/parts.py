@@ -28,8 +28,13 @@ Position = tuple[float, float, float]
 Polyline = tuple[Position, ...]
 
 POSITION = ListOf(Number(), length=3, name="points [x, y, z]")
+"""How a case gives a point."""
+
 POLYLINES = ListOf(ListOf(POSITION, least=2, name="polylines, each of 2 or more points [x, y, z]"))
+"""How a case gives curves."""
+
 SIZE = Number(above=0)
+"""How a case gives a size."""
 
 
 @documented

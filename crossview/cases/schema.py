@@ -13,6 +13,7 @@ from crossview.cases.records import Record, defaults_of, keys_of
 from crossview.cases.shape import Shape
 
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
+"""The version of JSON Schema that is written."""
 
 
 def schema() -> dict[str, Any]:

@@ -21,7 +21,10 @@ Quiet = Annotated[
 ]
 
 CASE = Group("Surface and field", sort_key=1)
+"""Where the help lists options of the surface and its field."""
+
 QUADS = Group("Quads", sort_key=2)
+"""Where the help lists options of quads."""
 
 
 @Parameter(name="*", group=CASE)

@@ -25,7 +25,11 @@ from solvers.progress import Progress
 from solvers.quads import QuadMesh
 
 FIGURE, QUADS = "figure.png", "quads.png"
+"""Names of the files drawn for each case of the gallery."""
+
 QUAD_LAYERS = ("quads", "singularities", "boundary", "legend", "axes")
+"""Layers of the picture of quads."""
+
 COARSE = MeshOptions(target_quads=1500)
 """Of the gallery: quads that can be told apart in a picture."""
 

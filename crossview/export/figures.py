@@ -30,6 +30,7 @@ from solvers.layouts import QuadLayout
 from solvers.quads import QuadMesh
 
 KINDS = (".png", ".svg", ".pdf")
+"""Endings of the files that figures are written to."""
 
 
 def render(

@@ -27,6 +27,7 @@ OLDER = 42
 SINGLE, UNSIGNED, TRIANGLES = 5126, 5125, 4
 """Codes of glTF for 4-byte floats, 4-byte indices, and separate triangles."""
 VERTEX_BUFFER, INDEX_BUFFER = 34962, 34963
+"""From glTF 2.0: `ARRAY_BUFFER` and `ELEMENT_ARRAY_BUFFER` of WebGL."""
 
 
 def check_kind(path: Path) -> None:

@@ -19,13 +19,17 @@ from crossview.scene.camera import rows
 from crossview.view.geometry import FloatArray
 from solvers.errors import CrossviewError
 
-# A picture of this height, in pixels, has texts and lines of the window's size.
 _NOMINAL_HEIGHT = 640.0
-# Each pixel is the mean of this many squared, as long as the whole stays below the limit.
+"""A picture of this height, in pixels, has texts and lines of the window's size. Chosen."""
+
 _SUPERSAMPLING, _MOST_PIXELS = 2, 40e6
+"""Each pixel is the mean of this many squared, as long as the whole stays below so many. Chosen."""
+
 _SHORTEST_SIDE, _LONGEST_SIDE = 16, 8192
-# Also makes wide lines end square, whatever their direction.
+"""Sides of a picture, in pixels, at least and at most. Chosen, below what drivers draw at once."""
+
 _MULTI_SAMPLES = 4
+"""Samples of a pixel; they also make wide lines end square, whatever their direction. Chosen."""
 
 
 class FigureError(CrossviewError):

@@ -28,6 +28,8 @@ from solvers.layouts import QuadLayout
 from solvers.quads import QuadMesh
 
 REPORT = "report.json"
+"""The file that a report is written to."""
+
 FORMATS = ("vtk", "obj")
 """Of quad meshes, if no others are asked for."""
 

@@ -12,8 +12,8 @@ from matplotlib.patches import Circle
 from crossview.export.raster import Seen
 from crossview.view.geometry import FloatArray
 
-# A line is cut where it goes behind the surface, at one of so many points.
 _STEPS = 13
+"""Points of a line at which it may be cut where it goes behind the surface. Chosen."""
 
 Point = tuple[float, float]
 

@@ -38,14 +38,16 @@ from crossview.view.geometry import Triangles, dashes
 from crossview.view.scalars import SCALARS, bar_texts, shown_scalar
 from crossview.view.style import TOWARDS, WIDTH
 
-# Pixels of the layout per inch on paper: 1600 x 1200 is 8 by 6 inches.
 _DPI = 200.0
+"""Pixels of the layout per inch on paper. Chosen: 1600 x 1200 is 8 by 6 inches."""
+
 _SETTINGS = {
     "svg.fonttype": "none",
     "svg.hashsalt": "crossview",
     "pdf.fonttype": 42,
     "font.family": ["DejaVu Sans"],
 }
+"""Of matplotlib: texts stay texts, and the same figure gives the same file."""
 
 
 def save_vector(

@@ -38,6 +38,8 @@ READERS: dict[str, Callable[[Path], Polygons]] = {
     ".glb": _from_libraries("read_gltf"),
     ".msh": _from_libraries("read_msh"),
 }
+"""The reader of each format, by the ending of its files."""
+
 SUFFIXES = tuple(READERS)
 """The file name endings that can be read."""
 UNSHARED = {".stl", ".gltf", ".glb"}

@@ -28,8 +28,13 @@ CODES = {
     "float float32": "f4",
     "double float64": "f8",
 }
+"""NumPy's type for the names that PLY has for each."""
+
 TYPES = {name: code for names, code in CODES.items() for name in names.split()}
+"""The same by single names."""
+
 ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
+"""NumPy's sign for the order of bytes; none in text."""
 
 
 @dataclass

@@ -12,8 +12,13 @@ from solvers.errors import CrossviewError
 from solvers.surface import FloatArray
 
 HEADER = 84
+"""Bytes before the triangles of a binary file: 80 of text, 4 of their number."""
+
 RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+"""A triangle of a binary file."""
+
 VERTEX = re.compile(rb"\bvertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
+"""A corner in a text file."""
 
 
 def read_stl(path: Path) -> Polygons:

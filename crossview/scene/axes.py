@@ -12,7 +12,10 @@ from crossview.view.geometry import FloatArray, Triangles
 from crossview.view.scene_view import SceneView
 
 _LENGTH, _CORNER = 24.0, 46.0
+"""Of the arrows, and of their origin from the corner, in pixels of the window. Chosen."""
+
 TEXT_SIZE, LINE_WIDTH = 11.0, 1.5
+"""In pixels of the window. Chosen."""
 
 
 class AxesLayer:

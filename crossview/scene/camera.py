@@ -13,9 +13,15 @@ from solvers.errors import CrossviewError
 from solvers.number_checks import LARGEST
 
 _VIEW_ANGLE = 24.0
-# A surface this flat lies on its flat side; others stand along y, as most model files do.
+"""From the bottom of the view to its top, degrees. Chosen: little perspective."""
+
 _LYING = 0.35
+"""A surface this flat, least by middle extent, lies on its flat side; others stand along y, as most
+model files do. Chosen.
+"""
+
 PRESETS = ("auto", "iso", "xy", "xz", "yz")
+"""Names of usual views."""
 
 
 @dataclass(frozen=True)

@@ -13,12 +13,14 @@ from crossview.view.sampling import spread_sites
 from crossview.view.scene_view import SceneView
 from crossview.view.style import WIDTH
 
-# How many crosses there are at density 1: of a planar surface all are seen at once.
 _NUMBER, _NUMBER_PLANAR = 2200, 1400
-# Half the length of a middling cross, in distances between crosses.
+"""How many crosses there are at density 1; of a planar surface all are seen at once. Chosen."""
+
 _ARM = 0.38
-# Sizes are shown within these factors of the middling one, so that all stay readable.
+"""Half the length of a middling cross, in distances between crosses. Chosen: they do not touch."""
+
 _SMALLEST, _LARGEST = 0.3, 1.75
+"""Sizes are shown within these factors of the middling one. Chosen, so that all stay readable."""
 
 
 class CrossesLayer:

@@ -12,8 +12,8 @@ from crossview.view.geometry import Triangles, dashes
 from crossview.view.scene_view import SceneView
 from crossview.view.style import WIDTH
 
-# Dash and gap of the cut graph, in diagonals of the surface.
 CUT_DASH, CUT_GAP = 0.012, 0.008
+"""Lengths of the dashes of the cut graph and of the gaps, in diagonals of the surface. Chosen."""
 
 
 class BoundaryLayer:

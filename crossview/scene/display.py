@@ -10,8 +10,13 @@ from functools import cache
 from solvers.errors import CrossviewError
 
 OFF_SCREEN = {"libEGL.so.1": "libegl1", "libEGL_mesa.so.0": "libgl1-mesa-dri"}
+"""Libraries that drawing without a screen needs, and Debian's packages of them."""
+
 ON_SCREEN = {"libGL.so.1": "libgl1", "libX11.so.6": "libx11-6"}
+"""Likewise, in a window."""
+
 _EGL_PLATFORM_DEVICE = 0x313F
+"""From EGL_EXT_platform_device: `EGL_PLATFORM_DEVICE_EXT`."""
 
 
 class RenderingError(CrossviewError):
@@ -100,6 +105,7 @@ def _egl_starts() -> bool:
 
 
 _ENTRY_POINTS = (b"eglQueryDevicesEXT", b"eglGetPlatformDisplayEXT")
+"""Functions of EGL that it takes to draw without a screen."""
 
 
 @cache

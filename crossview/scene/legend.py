@@ -13,17 +13,28 @@ from crossview.view.scalars import SCALARS, bar_texts, shown_scalar
 from crossview.view.scene_view import SceneView
 
 MARGIN = 18.0
+"""From the edges of the picture, in pixels of the window, as all here. Chosen, as all here."""
+
 TEXT_SIZE, TITLE_SIZE = 13.0, 15.0
-# The colour bar in pixels; its texts stand to the left of it.
+"""Of texts, and of the title."""
+
 BAR_WIDTH, BAR_HEIGHT, BAR_COLORS = 14.0, 170.0, 128
+"""The colour bar, whose texts stand to the left of it, and its steps of colour."""
+
 BAR_GAP, BAR_TITLE = 7.0, 16.0
-# Room that the colour bar and the legend need on the right and at the bottom.
+"""From the colour bar to its texts, and to its title."""
+
 BAR_ROOM, LEGEND_ROOM = 96.0, 46.0
-# Width of a letter of the colour bar's title.
+"""Room that the colour bar and the legend need on the right and at the bottom."""
+
 LETTER = 7.5
-# Height of the legend's line and of the colour bar's foot.
+"""Width of a letter of the colour bar's title."""
+
 FOOT = MARGIN + 4.0
+"""Height of the legend's line and of the colour bar's foot."""
+
 DISC, _FIRST, _STEP = 6.5, 74.0, 46.0
+"""Radius of the legend's discs, where the first is, and how far apart they are."""
 
 
 def bar_room(shown: str) -> float:

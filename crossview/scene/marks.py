@@ -21,8 +21,8 @@ STROKES = {
 }
 """Boxes (left, low, right, high) that a sign's letter is made of."""
 INKS = {"T": MARK_INK, "!": MARK_WARNING}
+"""Colour of the sign."""
 
-# A point is drawn as a square of pixels that face the eye; this makes a sign of it.
 _SIGN = """//VTK::Light::Impl
   vec2 at = vec2(gl_PointCoord.x - 0.5, 0.5 - gl_PointCoord.y);
   float soft = 0.7 * fwidth(at.x);
@@ -33,10 +33,13 @@ _SIGN = """//VTK::Light::Impl
 {strokes}
   fragOutput0 = vec4(mix(vec3({paper}), vec3({ink}), ink), opacity);
 """
+"""A point is drawn as a square of pixels that face the eye; this makes a sign of it."""
+
 _STROKE = """
   outside = abs(at - vec2({x}, {y})) - vec2({half_width}, {half_height});
   ink = max(ink, 1.0 - smoothstep(-soft, soft, max(outside.x, outside.y)));
 """
+"""One stroke of the sign."""
 
 
 class MarksLayer:

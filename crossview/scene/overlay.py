@@ -18,8 +18,12 @@ from crossview.scene.actors import cell_array, set_cell_colors
 from crossview.view.colors import rgb
 from crossview.view.geometry import FloatArray, IntArray
 
-# VTK's own fonts have no Greek letters; this one comes with matplotlib, which pyvista needs.
 FONT = str(Path(matplotlib.get_data_path()) / "fonts/ttf/DejaVuSans.ttf")
+"""The font of all texts; vector figures have the same.
+
+VTK's own fonts have no Greek letters; this one comes with matplotlib, which pyvista needs.
+"""
+
 Point = tuple[float, float]
 
 

@@ -120,3 +120,4 @@ def quad_colors(
 
 
 _NOTHING = Quads(np.zeros((1, 3)), np.empty((0, 4), int), np.empty(0, int))
+"""What there is before there are quads."""

@@ -34,8 +34,8 @@ from crossview.view.geometry import FloatArray, IntArray, Triangles
 from crossview.view.scalars import quality_limits, shown_scalar
 from crossview.view.scene_view import SceneView
 
-# Where the light is: to the right of the eye, above it, and away from what is seen.
 _LIGHT = (-0.3, 0.4, 1.0)
+"""Where the light is in the camera's frame: left of the eye, above and behind it. Chosen."""
 
 
 class Layer(Protocol):

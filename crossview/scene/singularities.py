@@ -16,21 +16,31 @@ from crossview.view.geometry import FloatArray, IntArray, Triangles
 from crossview.view.scene_view import SceneView
 from crossview.view.values import Marker
 
-# Radius of a singularity in diagonals of the surface, and at most in distances to its neighbour.
 _RADIUS, _CROWDED = 0.014, 0.42
-_RIM = "#16181c"
-# A disc is a rim, a light ring and the colour: radii as shares of its own, and paints.
-DISC_PARTS, DISC_PAINTS = (1.0, 0.92, 0.76), (_RIM, "#ffffff")
-_RING_SIZE = 1.75
-_PREVIEW_OPACITY = 0.6
+"""Radius of a ball, in diagonals of the surface, and at most in distances to the nearest. Chosen.
+"""
 
-# A ball painted by how far its normal leans from the eye: a disc in every view, of the right
-# size and hidden by what is before it.
+_RIM = "#16181c"
+"""Colour of the rims."""
+
+DISC_PARTS, DISC_PAINTS = (1.0, 0.92, 0.76), (_RIM, "#ffffff")
+"""A disc is a rim, a light ring and the colour: radii as shares of its own, and paints. Chosen."""
+
+_RING_SIZE = 1.75
+"""Radius of the ring around what is selected, in those of a ball. Chosen."""
+
+_PREVIEW_OPACITY = 0.6
+"""Of a singularity that a click would place, 0 to 1. Chosen."""
+
 _AWAY = """//VTK::Light::Impl
   vec3 eye = cameraParallel != 0 ? vec3(0.0, 0.0, 1.0) : normalize(-vertexVC.xyz);
   float facing = clamp(abs(dot(normalize(normalVCVSOutput), eye)), 0.0, 1.0);
   float away = sqrt(1.0 - facing * facing);
 """
+"""A ball painted by how far its normal leans from the eye: a disc in every view, of the right
+size and hidden by what is before it.
+"""
+
 _DISC = (
     _AWAY
     + """
@@ -38,6 +48,8 @@ _DISC = (
   fragOutput0 = vec4(mix(color, vec3({rim}), smoothstep(0.90, 0.94, away)), opacity);
 """
 )
+"""So a ball is painted as a disc."""
+
 _RING = (
     _AWAY
     + """
@@ -46,6 +58,7 @@ _RING = (
   fragOutput0 = vec4(mix(diffuseColor, vec3(1.0), edge), opacity);
 """
 )
+"""And so as a ring."""
 
 
 class Balls:

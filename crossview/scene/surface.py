@@ -18,11 +18,14 @@ from crossview.view.scalars import SCALARS, Limits, scalar_limits, scalar_values
 from crossview.view.scene_view import SceneView
 from crossview.view.style import WIDTH
 
-# Edges sharper than this, in degrees, stay sharp in the shading.
 _FEATURE_ANGLE = 50.0
+"""Edges sharper than this, in degrees, stay sharp in the shading. Chosen."""
+
 _EDGE_COLOR = "#9aa0a8"
-# Light that comes from everywhere; the rest comes from the scene's lights.
+"""Of the triangles' edges."""
+
 AMBIENT = 0.44
+"""Share of the light that comes from everywhere; the rest comes from the scene's lights. Chosen."""
 
 
 class SurfaceLayer:

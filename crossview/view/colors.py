@@ -12,7 +12,6 @@ from matplotlib.colors import ListedColormap, to_rgb
 
 Rgb = tuple[float, float, float]
 
-# Cool for cones (fewer than four quads), warm for saddles, then greens.
 VALENCE = {
     1: "#5b2fa8",
     2: "#12a3b4",
@@ -27,15 +26,31 @@ VALENCE = {
     11: "#2f8f4e",
     12: "#1b6b52",
 }
+"""Of singularities: cool for cones (fewer than four quads), warm for saddles, then greens.
+
+3, 5, 6 and 8 as in the paper.
+"""
+
 GOOD, BAD, UNSURE, WAITING = "#2f9e5b", "#d93a3a", "#e0a01b", "#a9adb5"
 """Of verdicts."""
 SURFACE = "#dcdee2"
+"""Of a surface without a scalar."""
+
 CROSS = "#1b1e24"
+"""Of crosses."""
+
 CUT = "#1f5fd6"
+"""Of the cut graph."""
+
 CUT_HALO = "#ffffff"
+"""Around the cut graph."""
+
 FEATURE = "#7a3db8"
+"""Of features."""
+
 LOOP = "#0b8f6f"
-# One for each holonomy condition in turn, none a valence's.
+"""Of handle loops."""
+
 CONDITIONS = (
     "#0b8f6f",
     "#b0207a",
@@ -46,11 +61,19 @@ CONDITIONS = (
     "#a8431e",
     "#37474f",
 )
+"""One for each holonomy condition in turn, none a valence's."""
+
 PROBLEM = "#e5182b"
+"""Of what is wrong with a surface."""
+
 SEPARATRIX = "#5c626c"
 """Of a curve that leaves no singularity."""
 QUAD_EDGE = "#3a3f47"
+"""Of the edges of quads."""
+
 MARK_PAPER, MARK_INK, MARK_WARNING = "#ffffff", "#111317", "#d4141f"
+"""Of signs: the ground, what is written, and a warning."""
+
 PATCHES = (
     "#b9d3ea", "#f3d3b8", "#c7e0bd", "#dfcbe8", "#f2e6ae", "#bfe0dd", "#f0c6cd", "#d5d0c4",
 )  # fmt: skip
@@ -67,12 +90,20 @@ COLOR_MAPS = {
     "lajolla": cm.lajolla_r,
     "lajolla down": cm.lajolla,
 }
+"""Colour maps by name, those of Crameri 2018: even to the eye, also where colours are hard to tell.
+"""
+
 DIVERGING = ("vik", "broc", "cork", "roma")
+"""Those for scalars about zero."""
+
 CYCLIC = ("romaO", "vikO", "corkO")
+"""Those for angles."""
+
 _DARK_ENDS = dict.fromkeys(DIVERGING, (0.07, 0.07)) | {
     "lajolla": (0.0, 0.32),
     "lajolla down": (0.32, 0.0),
 }
+"""Shares of a map's two ends that are too dark to see crosses on, and left out. Chosen."""
 
 
 @dataclass(frozen=True)
@@ -90,6 +121,7 @@ THEMES = {
     "transparent": Theme("#ffffff", "#000000", "#22262c", "#8a8f98"),
     "dark": Theme("#1d2026", "#08090b", "#e6e8eb", "#8a8f98"),
 }
+"""Backgrounds by name."""
 
 
 def rgb(color: str) -> Rgb:

@@ -11,8 +11,8 @@ import numpy.typing as npt
 from crossview.view.colors import PATCHES, bytes_of
 from crossview.view.values import FloatArray, IntArray, Quads
 
-# Points nearer than this, in diagonals, are one: patches are sampled each for itself.
 _SAME = 1e-7
+"""Points nearer than this, in diagonals, are one: patches are sampled each for itself. Chosen."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,18 +11,32 @@ from scipy.spatial import cKDTree
 
 from crossview.view.geometry import FloatArray, IntArray, Triangles
 
-# Candidates per chosen site: enough to fill the surface, few enough to choose among at once.
 _CANDIDATES = 8.0
-# A maximal choice at distance r has about 0.6 / r^2 members per unit area.
+"""Candidates per chosen site.
+
+Chosen: enough to fill the surface, few enough to choose among at once.
+"""
+
 _PACKING = 0.77
-# How far apart opposite directions of the normal count, in distances: thin sheets choose apart.
+"""Distance of sites, in square roots of the area for each.
+
+Measured: a maximal choice at distance r has about 0.6 / r^2 members per unit area.
+"""
+
 _NORMAL_WEIGHT = 0.75
-# No site nearer to the boundary than this, in distances.
+"""How far apart opposite directions of the normal count, in distances: thin sheets choose apart.
+
+Chosen.
+"""
+
 _BORDER = 0.36
-# Edges sharper than this, in degrees, end the arms of crosses.
+"""No site nearer to the boundary than this, in distances. Chosen."""
+
 _SHARP = 50.0
-# Triangles larger than this, in areas per site, hold more than one.
+"""Edges sharper than this, in degrees, end the arms of crosses. Chosen."""
+
 _LARGE = 3.0
+"""Triangles larger than this, in areas per site, hold more than one. Chosen."""
 
 
 @dataclass(frozen=True, eq=False)

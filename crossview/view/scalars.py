@@ -12,12 +12,21 @@ from crossview.view.scene_view import LayerSettings, SceneView
 
 Limits = tuple[float, float]
 
-# Sizes that differ by less than a percent are not worth a colour.
 _LEAST_LIMIT = 0.01
-# Decades of the error density told apart, and the highest of them where all is rounding.
+"""Least range of colours, in the scalar's unit.
+
+Chosen: sizes that differ by less than a percent are not worth a colour.
+"""
+
 _DECADES, _ROUNDING = 4.0, -10.0
+"""Decades of the error density told apart, and the highest of them where all is rounding. Chosen.
+"""
+
 _STEPS = np.array([1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0])
+"""Numbers that a range of colours ends at, times a power of ten. Chosen."""
+
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+"""Digits as they stand in exponents."""
 
 
 @dataclass(frozen=True)

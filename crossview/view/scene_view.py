@@ -101,6 +101,7 @@ LAYERS: tuple[LayerKind, ...] = (
     LayerKind("legend", "Valence legend"),
     LayerKind("axes", "Axes"),
 )
+"""What can be shown or not, in the order in which it is listed."""
 
 
 def default_layers() -> Mapping[str, LayerSettings]:

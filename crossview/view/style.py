@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-# Pixels of the window.
 WIDTH = {
     "edges": 1.0,
     "crosses": 1.25,
@@ -21,8 +20,8 @@ WIDTH = {
     "strong guide halo": 8.0,
     "problem": 3.0,
 }
-# How far each is drawn towards the eye from where it is, in 1/65 536 of the depth seen: lines do
-# not fight with the surface they lie on, and discs do not sink into it when seen from the side.
+"""Of lines, in pixels of the window. Chosen."""
+
 TOWARDS = {
     "surface": 0.0,
     "quads": 0.0,
@@ -52,3 +51,8 @@ TOWARDS = {
     "selection": 2500.0,
     "preview": 3000.0,
 }
+"""How far each is drawn towards the eye from where it is, in 1/65 536 of the depth seen.
+
+Chosen: lines do not fight with the surface they lie on, and discs do not sink into it when seen
+from the side.
+"""

@@ -6,7 +6,10 @@ import math
 from collections.abc import Sequence
 
 THIN_SPACE = "\u2009"
+"""Between groups of three digits."""
+
 MINUS = "\u2212"
+"""The sign of negative numbers."""
 
 
 def count(number: int, noun: str, plural: str = "") -> str:

@@ -19,6 +19,7 @@ from solvers.quads import MOST_QUADS, QuadMesh, fill, quantize, quantize_to, smo
 from solvers.surface import TriSurface
 
 DEFAULT_QUADS = 5_000
+"""Number of quads that are made if nothing else is said. Chosen."""
 
 
 @dataclass(frozen=True)
