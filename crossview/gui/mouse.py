@@ -10,7 +10,7 @@ from PySide6.QtGui import QMouseEvent, QWheelEvent
 from crossview.gui.picking import Pick
 from crossview.gui.viewport import Viewport
 from crossview.session.session import Session
-from solvers.surface.points import SurfacePoint
+from solvers.surface import SurfacePoint
 
 CLICK_REACH = 4.0
 """Pixels that the mouse may move between press and release of a click."""

@@ -11,8 +11,7 @@ from vtkmodules.vtkCommonCore import mutable
 from vtkmodules.vtkCommonDataModel import vtkStaticCellLocator
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
-from solvers.surface.points import SurfacePoint
-from solvers.surface.trisurface import TriSurface
+from solvers.surface import SurfacePoint, TriSurface
 
 Place = tuple[float, float]
 """Device pixels from the lower left, as VTK counts."""

@@ -7,8 +7,8 @@ from typing import Protocol
 
 from crossview.session.document import Document
 from crossview.workflow.marking import Marking
-from solvers.singularities.budget import Singularity
-from solvers.surface.points import SurfacePoint
+from solvers.singularities import Singularity
+from solvers.surface import SurfacePoint
 
 METHOD_LABELS = {
     "isotropic": "Isotropic",

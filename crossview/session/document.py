@@ -8,8 +8,8 @@ from functools import cached_property
 
 from crossview.cases.model import Case
 from crossview.workflow.problem import Problem
-from solvers.singularities.budget import IndexBudget, Singularity, index_budget
-from solvers.surface.trisurface import TriSurface
+from solvers.singularities import IndexBudget, Singularity, index_budget
+from solvers.surface import TriSurface
 
 
 @dataclass(frozen=True, eq=False)

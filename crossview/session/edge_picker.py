@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from solvers.surface.edge_paths import EdgePaths
-from solvers.surface.points import SurfacePoint
-from solvers.surface.triangulation import IntArray
-from solvers.surface.trisurface import TriSurface
+from solvers.surface import EdgePaths, IntArray, SurfacePoint, TriSurface
 
 
 class EdgePicker:

@@ -34,14 +34,12 @@ from crossview.view.scene_view import LayerSettings, default_layers
 from crossview.view.values import Elements, GuideLine
 from crossview.workflow.pipeline import Solution
 from crossview.workflow.problem import Problem
-from solvers.features.edges import Features
-from solvers.fields.crossfield import CrossField
-from solvers.layouts.separatrices import Separatrices
+from solvers.features import Features
+from solvers.fields import CrossField
+from solvers.layouts import Separatrices
 from solvers.progress import Progress
-from solvers.singularities.budget import IndexBudget, Singularity, index_budget
-from solvers.surface.points import SurfacePoint
-from solvers.surface.triangulation import FloatArray, IntArray
-from solvers.surface.trisurface import TriSurface
+from solvers.singularities import IndexBudget, Singularity, index_budget
+from solvers.surface import FloatArray, IntArray, SurfacePoint, TriSurface
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,9 +10,8 @@ import numpy as np
 
 from crossview.session.live import LiveEdit
 from solvers.progress import Progress
-from solvers.surface.points import SurfacePoint
-from solvers.surface.triangulation import FloatArray
-from solvers.validity.guide import Guide
+from solvers.surface import FloatArray, SurfacePoint
+from solvers.validity import Guide
 
 
 @dataclass(frozen=True, eq=False)

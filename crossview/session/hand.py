@@ -6,11 +6,9 @@ from dataclasses import dataclass, replace
 
 from crossview.session.live import LiveEdit
 from crossview.workflow.marking import Marking
-from solvers.features.edges import Features
-from solvers.singularities.budget import Singularity
-from solvers.surface.points import SurfacePoint
-from solvers.surface.triangulation import IntArray
-from solvers.surface.trisurface import TriSurface
+from solvers.features import Features
+from solvers.singularities import Singularity
+from solvers.surface import IntArray, SurfacePoint, TriSurface
 
 OWN_TOOLS = (3, 5, 6, 8)
 """Valences that have a tool of their own; of all others there is one."""

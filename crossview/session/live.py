@@ -17,13 +17,10 @@ from numpy.typing import NDArray
 from crossview.session.document import Document
 from crossview.workflow.marking import Marking
 from crossview.workflow.pipeline import Solution
-from solvers.fields.crossfield import CrossField
-from solvers.fields.isotropic import IsotropicSolver
+from solvers.fields import CrossField, IsotropicSolver
 from solvers.progress import Progress
-from solvers.singularities.budget import Singularity
-from solvers.surface.points import SurfacePoint
-from solvers.surface.refinement import Refinement
-from solvers.surface.trisurface import TriSurface
+from solvers.singularities import Singularity
+from solvers.surface import Refinement, SurfacePoint, TriSurface
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,8 +7,8 @@ from collections.abc import Generator
 from dataclasses import dataclass
 
 from crossview.session.live import LiveEdit
-from solvers.fields.crossfield import CrossField
-from solvers.layouts.separatrices import Separatrices, field_separatrices
+from solvers.fields import CrossField
+from solvers.layouts import Separatrices, field_separatrices
 from solvers.progress import Progress
 
 LONGEST = 1.5

@@ -18,10 +18,8 @@ from crossview.session.document import Document
 from crossview.session.rearrangements import distribute
 from solvers.progress import Progress
 from solvers.remedies import Remedy, UseMethod
-from solvers.singularities.budget import Singularity
-from solvers.singularities.farthest import far_points
-from solvers.singularities.remedies import AddMissing, ChangeOne, RemoveOne
-from solvers.validity.attempts import PlaceAnew
+from solvers.singularities import AddMissing, ChangeOne, RemoveOne, Singularity, far_points
+from solvers.validity import PlaceAnew
 
 MOST_ADDED = 64
 

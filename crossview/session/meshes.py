@@ -10,13 +10,11 @@ import numpy as np
 from crossview.workflow.layout import SOON, layout, misaligned_boundaries, separatrices
 from crossview.workflow.pipeline import Solution
 from crossview.workflow.quads import MeshOptions, quads
-from solvers.fields.crossfield import CrossField
-from solvers.layouts.errors import LayoutError
-from solvers.layouts.layout import QuadLayout
-from solvers.layouts.separatrices import Separatrices
+from solvers.fields import CrossField
+from solvers.layouts import LayoutError, QuadLayout, Separatrices
 from solvers.progress import Progress, between
-from solvers.quads.quadmesh import QuadMesh
-from solvers.surface.triangulation import FloatArray
+from solvers.quads import QuadMesh
+from solvers.surface import FloatArray
 
 LAID_OUT = 0.6
 """Share of a whole computation of quads that the layout takes, for its progress."""

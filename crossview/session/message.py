@@ -8,7 +8,7 @@ from crossview.session.opening import Opening
 from crossview.view.values import Elements
 from crossview.workflow.quads import MeshOptions
 from solvers.remedies import Remedy
-from solvers.surface.triangulation import FloatArray, IntArray
+from solvers.surface import FloatArray, IntArray
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,9 +10,7 @@ from crossview.session.live import LiveBase, with_directions
 from crossview.session.shown import Solved
 from crossview.workflow.pipeline import Pipeline, Solution
 from crossview.workflow.problem import Problem
-from solvers.fields.aligned import AlignedField, IntegratedField
-from solvers.fields.crossfield import CrossField
-from solvers.fields.integrable import FieldStep
+from solvers.fields import AlignedField, CrossField, FieldStep, IntegratedField
 from solvers.progress import Progress, relayed
 
 DRAWN_EVERY = 0.2

@@ -10,8 +10,8 @@ from crossview.cases.gallery import find_case
 from crossview.io import read_surface
 from crossview.session.document import Document
 from solvers.progress import Progress
-from solvers.repair.flat_triangles import merge_coincident
-from solvers.surface.triangulation import FloatArray, IntArray
+from solvers.repair import merge_coincident
+from solvers.surface import FloatArray, IntArray
 
 
 @dataclass(frozen=True)

@@ -17,9 +17,8 @@ from crossview.view.field import feature_lines, field_view
 from crossview.view.meshes import curves_of, patches_of, quads_of, t_junctions_of
 from crossview.view.scene_view import Background, LayerSettings, SceneView
 from crossview.view.values import Elements, Marker
-from solvers.fields.crossfield import CrossField
-from solvers.surface.triangulation import FloatArray, IntArray
-from solvers.surface.trisurface import TriSurface
+from solvers.fields import CrossField
+from solvers.surface import FloatArray, IntArray, TriSurface
 
 POOR_QUALITY = 0.1
 

@@ -8,13 +8,11 @@ import numpy as np
 
 from crossview.session.commands import AddSingularities, Command, ReplaceSingularities
 from crossview.session.document import Document
-from solvers.fields.isotropic import IsotropicSolver
+from solvers.fields import IsotropicSolver
 from solvers.progress import Progress
-from solvers.singularities.farthest import far_points
-from solvers.singularities.pairs import merged, pair_at, split
-from solvers.singularities.symmetry import mirrored, rotated
-from solvers.surface.points import SurfacePoint
-from solvers.validity.completion import missing_singularities
+from solvers.singularities import far_points, merged, mirrored, pair_at, rotated, split
+from solvers.surface import SurfacePoint
+from solvers.validity import missing_singularities
 
 
 def add_pair(document: Document, point: SurfacePoint) -> Command:

@@ -25,7 +25,7 @@ from crossview.session.verbs.trials import Trials
 from crossview.view.values import Elements
 from crossview.workflow.quads import MeshOptions
 from solvers.remedies import MakeValid, Remedy, RepairSurface, TakeLargest
-from solvers.surface.triangulation import FloatArray, IntArray
+from solvers.surface import FloatArray, IntArray
 
 
 class Session(Store):

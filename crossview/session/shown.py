@@ -17,10 +17,9 @@ from dataclasses import dataclass
 from crossview.session.live import LiveBase
 from crossview.session.meshes import NO_MESHES, Meshes
 from crossview.workflow.pipeline import Solution
-from solvers.fields.crossfield import CrossField
-from solvers.fields.integrable import FieldStep
-from solvers.singularities.budget import Singularity
-from solvers.surface.triangulation import FloatArray, IntArray
+from solvers.fields import CrossField, FieldStep
+from solvers.singularities import Singularity
+from solvers.surface import FloatArray, IntArray
 
 
 @dataclass(frozen=True, eq=False)

@@ -36,9 +36,8 @@ from crossview.session.waypoints import Waypoint
 from crossview.view.scene_view import LayerSettings
 from crossview.workflow.pipeline import Solution
 from solvers.progress import Progress
-from solvers.singularities.budget import Singularity
-from solvers.surface.points import SurfacePoint
-from solvers.surface.triangulation import IntArray
+from solvers.singularities import Singularity
+from solvers.surface import IntArray, SurfacePoint
 
 
 @dataclass(frozen=True, eq=False)

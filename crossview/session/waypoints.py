@@ -12,11 +12,10 @@ from crossview.session.document import Document
 from crossview.session.live import LiveBase, with_directions
 from crossview.session.method_solver import DRAWN_EVERY
 from solvers.errors import CrossviewError
-from solvers.fields.crossfield import CrossField
-from solvers.fields.natural import NATURAL_ALIGNMENTS, CrossesStep, natural_singularities
+from solvers.fields import NATURAL_ALIGNMENTS, CrossesStep, CrossField, natural_singularities
 from solvers.progress import Progress, relayed
-from solvers.singularities.budget import Singularity
-from solvers.surface.triangulation import FloatArray
+from solvers.singularities import Singularity
+from solvers.surface import FloatArray
 from solvers.validity import Moved, make_valid
 
 T = TypeVar("T")

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QWidget
 from crossview.view.colors import BAD, color_table
 from crossview.view.scalars import SCALARS
 from crossview.view.texts import MINUS
-from solvers.surface.triangulation import FloatArray, IntArray
+from solvers.surface import FloatArray, IntArray
 
 BINS, STEP, LEAST_HEIGHT = 20, 0.1, 2.0
 """Bars, steps that the range begins at, and pixels that a bar with anything in it has."""

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 from crossview.view.texts import MINUS, count, grouped
 from crossview.workflow.pipeline import Solution
-from solvers.layouts.layout import QuadLayout
-from solvers.quads.quadmesh import QuadMesh
+from solvers.layouts import QuadLayout
+from solvers.quads import QuadMesh
 
 ROWS = (
     "Vertices",

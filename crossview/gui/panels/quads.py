@@ -28,8 +28,8 @@ from crossview.gui.panels.validity import DOT
 from crossview.session.state import SessionState
 from crossview.view.colors import BAD, GOOD
 from crossview.workflow.quads import DEFAULT_QUADS, MeshOptions
-from solvers.quads.quantization import MOST_QUADS
-from solvers.surface.trisurface import TriSurface
+from solvers.quads import MOST_QUADS
+from solvers.surface import TriSurface
 
 COUNT, LENGTH = range(2)
 NOTHING = "No quads yet."

@@ -12,7 +12,7 @@ from crossview.session.session import Session
 from crossview.session.state import SessionState
 from crossview.view.colors import valence_color
 from crossview.view.texts import position, signed
-from solvers.singularities.budget import Singularity
+from solvers.singularities import Singularity
 
 NUMBER, VALENCE, INDEX, POSITION, LOCK = range(5)
 HEADERS = ("#", "Valence", "Index", "Position", "")

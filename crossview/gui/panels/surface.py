@@ -13,7 +13,7 @@ from crossview.session.pictures import poor_faces
 from crossview.session.session import Session
 from crossview.session.state import SessionState
 from crossview.view.texts import count
-from solvers.surface.trisurface import TriSurface
+from solvers.surface import TriSurface
 
 
 class Hovered(QLabel):

@@ -15,8 +15,8 @@ from crossview.session.document import Document
 from crossview.session.history import History
 from crossview.session.store import Store
 from crossview.session.verbs.solving import Solving
-from solvers.singularities.budget import Singularity
-from solvers.surface.points import SurfacePoint
+from solvers.singularities import Singularity
+from solvers.surface import SurfacePoint
 
 
 class Edits:

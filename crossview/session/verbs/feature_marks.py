@@ -11,8 +11,7 @@ from crossview.session.edge_picker import EdgePicker
 from crossview.session.hand import FeatureTrial, MarkTool, SelectTool
 from crossview.session.verbs.group import VerbGroup
 from crossview.workflow.marking import Marking
-from solvers.surface.points import SurfacePoint
-from solvers.surface.triangulation import IntArray
+from solvers.surface import IntArray, SurfacePoint
 
 
 class FeatureMarks(VerbGroup):

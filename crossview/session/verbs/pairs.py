@@ -17,7 +17,7 @@ from crossview.session.rearrangements import (
     split_one,
 )
 from crossview.session.verbs.group import VerbGroup
-from solvers.surface.points import SurfacePoint
+from solvers.surface import SurfacePoint
 
 
 class Pairs(VerbGroup):

@@ -10,9 +10,9 @@ from crossview.session.store import Store
 from crossview.session.verbs.solving import Solving
 from crossview.view.values import Elements
 from crossview.workflow.quads import MeshOptions
-from solvers.fields.crossfield import CrossField
-from solvers.layouts.errors import LayoutError
-from solvers.surface.trisurface import TriSurface
+from solvers.fields import CrossField
+from solvers.layouts import LayoutError
+from solvers.surface import TriSurface
 
 KEPT = 4
 """Fields whose meshes are kept: one for each method."""

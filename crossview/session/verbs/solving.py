@@ -16,7 +16,7 @@ from crossview.session.shown import Solved
 from crossview.session.store import Store
 from crossview.view.texts import energy
 from solvers.progress import Progress
-from solvers.surface.triangulation import IntArray
+from solvers.surface import IntArray
 
 T = TypeVar("T")
 

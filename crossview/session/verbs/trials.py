@@ -6,7 +6,7 @@ from crossview.session.commands import MoveSingularity
 from crossview.session.guide_curves import Guidance
 from crossview.session.hand import Trial
 from crossview.session.verbs.group import VerbGroup
-from solvers.surface.points import SurfacePoint
+from solvers.surface import SurfacePoint
 
 
 class Trials(VerbGroup):
