@@ -117,5 +117,5 @@ class JsonField:
 
 def shown(value: Any) -> str:
     """The value as JSON writes it, shortened so that an error stays one line."""
-    text = json.dumps(value, ensure_ascii=False)
+    text = json.dumps(value, ensure_ascii=False, default=repr)
     return text if len(text) <= 40 else text[:37] + "..."

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any
 
 from crossview.cases.compounds import Either, ListOf
-from crossview.cases.json_values import known_word
-from crossview.cases.records import documented, key
+from crossview.cases.json_values import CaseError, known_word
+from crossview.cases.records import check_numbers, documented, key
 from crossview.cases.scalars import File, Flag, Number, Word
 from solvers.fields import TOLERANCE_DEGREES
+from solvers.number_checks import real_numbers, whole_numbers
 from solvers.surface import LEVELS
 
 METHODS = ("isotropic", "aligned", "anisotropic", "alternating")
@@ -53,6 +55,9 @@ class PlacedSingularity:
     )
     locked: bool = field(default=False, metadata=key(Flag(), "Whether it is kept in place."))
 
+    def __post_init__(self) -> None:
+        check_numbers(self)
+
 
 @documented
 @dataclass(frozen=True)
@@ -66,6 +71,9 @@ class PlacedCorner:
             "2 - number of quads that meet there: 1 at 90 degrees, -1 at 270.",
         )
     )
+
+    def __post_init__(self) -> None:
+        check_numbers(self)
 
 
 @documented
@@ -92,6 +100,9 @@ class PlacedFeatures:
         default=(),
         metadata=key(POLYLINES, "Edges, given likewise, that are none although they are sharp."),
     )
+
+    def __post_init__(self) -> None:
+        check_numbers(self)
 
 
 @documented
@@ -163,6 +174,20 @@ class Options:
             Flag(), "Solve again on a once refined mesh, and judge by how much the aspect grows."
         ),
     )
+
+    def __post_init__(self) -> None:
+        check_numbers(self)
+        if self.turns is not None:
+            turns = whole_numbers("turns", self.turns, (None,), error=CaseError)
+            object.__setattr__(self, "turns", tuple(turns.tolist()))
+        if self.sizes is not None and not isinstance(self.sizes, str):
+            sizes = real_numbers("the size map", self.sizes, error=CaseError).tolist()
+            object.__setattr__(self, "sizes", _frozen(sizes))
+
+
+def _frozen(rows: Any) -> Any:
+    """Return lists as tuples."""
+    return tuple(map(_frozen, rows)) if isinstance(rows, list) else rows
 
 
 def check_method(name: str, where: str) -> str:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from crossview.cases.json_values import JsonField
+from crossview.cases.scalars import Number
 from crossview.cases.shape import Shape
 
 
@@ -65,6 +66,27 @@ def checked(kind: type, name: str, entry: JsonField) -> Any:
         It is wrong.
     """
     return keys_of(kind)[name].shape.read(entry, Path())
+
+
+def check_numbers(made: Any) -> None:
+    """Check the numbers of a value made in Python as those of a case file are: 3.0 becomes 3.
+
+    Parameters
+    ----------
+    made : object
+        Of a dataclass with keys, while it is made.
+
+    Raises
+    ------
+    CaseError
+        One is wrong.
+    """
+    unset = defaults_of(type(made))
+    for name, key in keys_of(type(made)).items():
+        given = getattr(made, name)
+        if isinstance(key.shape, Number) and not (given is None and unset.get(name, 0) is None):
+            entry = JsonField(given, name)
+            object.__setattr__(made, name, key.shape.read(entry, Path()))
 
 
 def defaults_of(kind: type) -> dict[str, Any]:

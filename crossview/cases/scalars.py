@@ -8,9 +8,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from crossview.cases.json_values import JsonField, known_word, shown
 from crossview.cases.shape import Shape, either
-from solvers.number_checks import LARGEST
+from solvers.number_checks import LARGEST, plain
 
 
 @dataclass(frozen=True)
@@ -50,15 +52,18 @@ class Number(Shape):
 
     def fits(self, value: object) -> bool:
         """Whether it is a number at all."""
-        return isinstance(value, int | float) and not isinstance(value, bool)
+        number = isinstance(value, int | float | np.integer | np.floating)
+        return number and not isinstance(value, bool)
 
     def read(self, entry: JsonField, base: Path) -> int | float:
         """Return the number."""
-        value: Any = entry.value
-        if not self.fits(value):
+        if not self.fits(entry.value):
             raise self.mismatch(entry)
-        if not abs(value) < LARGEST:
-            raise entry.error(f"expected a finite number below {LARGEST:g}, found {shown(value)}")
+        value = plain(entry.value)
+        if value is None:
+            raise entry.error(
+                f"expected a finite number below {LARGEST:g}, found {shown(entry.value)}"
+            )
         within = (
             (self.above is None or value > self.above)
             and (self.least is None or value >= self.least)

@@ -25,7 +25,7 @@ from crossview.workflow.marking import EdgeTracer, Marking
 from solvers.errors import CrossviewError
 from solvers.features import Features
 from solvers.repair import Repaired
-from solvers.singularities import Singularity, default_corners
+from solvers.singularities import Singularity, checked_corners, default_corners
 from solvers.surface import FloatArray, TriSurface
 
 REACH = 0.05
@@ -58,7 +58,8 @@ class Problem:
     Raises
     ------
     CrossviewError
-        The method is unknown, or what is given for singularities is something else.
+        The method is unknown, what is given for singularities is something else, or a corner is
+        not on the boundary or no whole number.
 
     Examples
     --------
@@ -89,6 +90,8 @@ class Problem:
                 "give Singularity values",
             )
         object.__setattr__(self, "singularities", given)
+        if self.corners is not None:
+            object.__setattr__(self, "corners", checked_corners(self.surface, self.corners))
 
     @classmethod
     def from_case(cls, case: Case) -> Problem:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from solvers.singularities.budget import (
     IndexBudget,
     Singularity,
+    checked_corners,
     default_corners,
     index_budget,
     require_budget,
@@ -20,6 +21,7 @@ __all__ = [
     "IndexBudget",
     "RemoveOne",
     "Singularity",
+    "checked_corners",
     "default_corners",
     "far_points",
     "index_budget",

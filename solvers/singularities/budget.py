@@ -119,7 +119,7 @@ def checked_corners(surface: TriSurface, corners: Mapping[int, int]) -> dict[int
     Examples
     --------
     >>> from solvers.primitives import square
-    >>> from solvers.singularities.budget import checked_corners
+    >>> from solvers.singularities import checked_corners
     >>> checked_corners(square(n=2), {0: 1.0})
     {0: 1}
     >>> checked_corners(square(n=2), {4: 1})

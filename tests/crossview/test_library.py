@@ -6,6 +6,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -104,3 +105,15 @@ def test_a_surface_made_in_python_is_named_in_its_case(tmp_path: Path) -> None:
     crossview.write_case(problem, tmp_path / "case.json", surface=made_by)
     again = crossview.read(tmp_path / "case.json").surface
     np.testing.assert_array_equal(again.vertices, problem.surface.vertices)
+
+
+@pytest.mark.parametrize(
+    ("corners", "said"),
+    [
+        ({0: 0.5}, "the index of corner 0 must be a whole number, at most 1, not 0.5"),
+        ({10**6: 1}, "the vertex of a corner must be a whole number from 0 to"),
+    ],
+)
+def test_corners_of_a_problem_are_checked(corners: Any, said: str) -> None:
+    with pytest.raises(crossview.CrossviewError, match=said):
+        crossview.Problem(crossview.primitives.square(n=4), corners=corners)

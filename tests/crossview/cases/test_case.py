@@ -3,12 +3,22 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
-from crossview.cases.model import Builtin, Case, CaseError, Options, PlacedCorner, PlacedSingularity
+from crossview.cases.model import (
+    Builtin,
+    Case,
+    CaseError,
+    Options,
+    PlacedCorner,
+    PlacedFeatures,
+    PlacedSingularity,
+)
 from solvers.errors import CrossviewError
 
 FULL = {
@@ -177,3 +187,36 @@ def test_saving_where_nothing_can_be_written_says_so(tmp_path: Path) -> None:
     with pytest.raises(CrossviewError, match=r"cannot write, Not a directory.*file"):
         Case(Builtin("torus")).save(tmp_path / "file" / "case.json")
     assert [p.name for p in tmp_path.iterdir()] == ["file"]
+
+
+ORIGIN = {"position": (0.0, 0.0, 0.0)}
+
+
+@pytest.mark.parametrize(
+    ("kind", "values", "said"),
+    [
+        (PlacedSingularity, ORIGIN | {"valence": 3.5}, r"whole number from 1.*3\.5 \(valence\)"),
+        (PlacedSingularity, ORIGIN | {"valence": True}, r"whole number.*true \(valence\)"),
+        (PlacedCorner, ORIGIN | {"index": 0.5}, r"whole number.*0\.5 \(index\)"),
+        (PlacedFeatures, {"dihedral_degrees": np.nan}, r"finite.*\(dihedral_degrees\)"),
+        (Options, {"tolerance_degrees": np.nan}, r"finite number.*\(tolerance_degrees\)"),
+        (Options, {"refine": np.float64(2.5)}, r"whole number.*2\.5 \(refine\)"),
+        (Options, {"proximal_weight": -1.0}, r"number above 0.*-1\.0 \(proximal_weight\)"),
+        (Options, {"turns": (0, 0.5)}, r"turns must be whole numbers, not 0\.5 \(row 1\)"),
+        (Options, {"sizes": ("small",)}, "the size map must be numbers"),
+    ],
+)
+def test_numbers_of_cases_made_in_python_are_checked(
+    kind: Callable[..., object], values: dict[str, Any], said: str
+) -> None:
+    with pytest.raises(CaseError, match=said):
+        kind(**values)
+
+
+def test_numbers_of_numpy_and_whole_floats_are_what_they_say() -> None:
+    arrays: dict[str, Any] = {"turns": np.array([1, 2]), "sizes": np.ones((2, 2))}
+    lists: dict[str, Any] = {"turns": [1.0, 2], "sizes": [[1, 1], [1, 1]]}
+    made = Options(refine=np.int64(2), **arrays)  # type: ignore[arg-type]
+    assert made == Options(refine=2, **lists)
+    assert (made.turns, made.sizes) == ((1, 2), ((1.0, 1.0), (1.0, 1.0)))
+    assert type(made.refine) is int
