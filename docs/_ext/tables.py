@@ -34,6 +34,7 @@ def commands() -> str:
     text = command_line.generate_docs(output_format="markdown", usage_name="crossview")
     _, _, text = text.partition("\n")  # its title
     text = re.sub(r"## Table of Contents\n.*?(?=\*\*Commands)", "", text, flags=re.DOTALL)
+    text = text.replace(" -m sphinx", "")  # which runs the program just now
     return text.replace(" *[default: False]*", "").replace("```console", "```text")
 
 
