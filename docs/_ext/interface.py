@@ -36,6 +36,7 @@ def interface() -> dict[str, str]:
         "functions <solvers.primitives>`.", "",
         *title("Verbs", "-"), *entries("crossview", verbs),
         *title("Values", "-"), *entries("crossview", values),
+        *title("Options of figures", "-"), *entries("crossview.export.figures", ["render"]),
     ]  # fmt: skip
     return {name: "\n".join(lines) + "\n" for name, lines in pages.items()}
 
