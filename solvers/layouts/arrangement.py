@@ -10,9 +10,9 @@ import numpy as np
 
 from solvers.layouts.crossings import Crossings
 from solvers.layouts.curves import Curves, boundary_halfedges, with_loops
+from solvers.layouts.motorcycles import Stops, left_of
 from solvers.layouts.nodes import Node
 from solvers.layouts.pieces import as_sides, cycles
-from solvers.layouts.stops import Stops, left_of
 from solvers.layouts.tmesh import TMesh
 from solvers.layouts.tracing import NODE, Traces
 from solvers.surface.triangulation import BoolArray, FloatArray, IntArray

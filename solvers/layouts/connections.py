@@ -12,7 +12,7 @@ from scipy.sparse import coo_array, csc_array
 
 from solvers.layouts.charts import AXES, ComplexArray
 from solvers.layouts.crossings import Crossings, ends_of
-from solvers.layouts.stops import doubled
+from solvers.layouts.motorcycles import doubled
 from solvers.layouts.tracing import NODE, Traces
 from solvers.surface.triangulation import FloatArray, IntArray
 

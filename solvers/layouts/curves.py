@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from solvers.layouts.charts import Chart
+from solvers.layouts.motorcycles import Stops
 from solvers.layouts.nodes import Node
-from solvers.layouts.stops import Stops
 from solvers.layouts.tracing import BORDER, Chords, Traces
 from solvers.surface.triangulation import QUARTER, FloatArray, IntArray, next_halfedge
 from solvers.surface.trisurface import TriSurface

@@ -13,10 +13,10 @@ from solvers.layouts.connections import beside, conditions, ending, passing
 from solvers.layouts.crossings import crossings
 from solvers.layouts.curves import bare_loops, boundary_halfedges
 from solvers.layouts.joined_map import JoinedMap
+from solvers.layouts.motorcycles import Stops, left_of, stops
 from solvers.layouts.nodes import Node, node_at, starts_at
 from solvers.layouts.rims import with_rims
 from solvers.layouts.separatrices import Separatrices, as_curves
-from solvers.layouts.stops import Stops, left_of, stops
 from solvers.layouts.tracing import trace
 
 EXACT = 1e-6

@@ -10,8 +10,8 @@ import numpy as np
 from solvers.fields.crossfield import CrossField
 from solvers.layouts.charts import AXES, Chart
 from solvers.layouts.crossings import crossings
+from solvers.layouts.motorcycles import Stops, stops
 from solvers.layouts.nodes import Node, singular_nodes, starts_at
-from solvers.layouts.stops import Stops, stops
 from solvers.layouts.tracing import BORDER, LENGTH, Traces, trace
 from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface

@@ -45,7 +45,7 @@ MOST_CUTS = 50
 
 
 @dataclass(frozen=True, eq=False)
-class Cut:
+class CuttingPlane:
     """A condition: arcs that need so many edges together.
 
     Parameters
@@ -77,7 +77,7 @@ def least_counts(tmesh: TMesh, *, collapse: bool) -> IntArray:
     return np.where(loop, 3, 1 if not collapse else held.all(axis=1).astype(np.int64))
 
 
-def broken(tmesh: TMesh, counts: IntArray) -> list[Cut]:
+def broken(tmesh: TMesh, counts: IntArray) -> list[CuttingPlane]:
     """Return conditions that counts break because of what they merge; none if all is well.
 
     Sufficiently many edges along every arc meet all of them, and 1 along every arc those that keep
@@ -95,12 +95,12 @@ def broken(tmesh: TMesh, counts: IntArray) -> list[Cut]:
     return found or _doubles(Numbering(tmesh, counts), vertices, edges)
 
 
-def _torn(points: Merged) -> list[Cut]:
+def _torn(points: Merged) -> list[CuttingPlane]:
     """Return a condition for each piece that would change the topology."""
-    return [Cut(points.arcs(points.within(np.array([k]))), 1) for k in points.torn]
+    return [CuttingPlane(points.arcs(points.within(np.array([k]))), 1) for k in points.torn]
 
 
-def _unseparated(tmesh: TMesh, vertices: Merged) -> list[Cut]:
+def _unseparated(tmesh: TMesh, vertices: Merged) -> list[CuttingPlane]:
     """Return a condition for each way between critical nodes, or from one to the boundary."""
     critical = np.flatnonzero(tmesh.critical)
     crowd = vertices.holding(critical)
@@ -120,11 +120,11 @@ def _unseparated(tmesh: TMesh, vertices: Merged) -> list[Cut]:
             ends += order[vertices.on_boundary[order]].tolist()[:1]
         for end in ends:
             path = np.array(walk_back(before, end))
-            found.append(Cut(vertices.arcs(graph.halfedges(path[:-1], path[1:])), 1))
+            found.append(CuttingPlane(vertices.arcs(graph.halfedges(path[:-1], path[1:])), 1))
     return found
 
 
-def _doubles(numbers: Numbering, vertices: Merged, edges: Merged) -> list[Cut]:
+def _doubles(numbers: Numbering, vertices: Merged, edges: Merged) -> list[CuttingPlane]:
     """Return a condition for each pair of edges with the same ends, and each with one end twice."""
     tmesh, counts = numbers.tmesh, numbers.counts
     pairs, arc = numbers.edges()
@@ -144,5 +144,5 @@ def _doubles(numbers: Numbering, vertices: Merged, edges: Merged) -> list[Cut]:
         members = np.flatnonzero(group == k)
         joining = vertices.arcs(vertices.within(piece[members[0]]))
         involved = np.union1d(joining, causes.arcs(why[members]))
-        found.append(Cut(involved, int(counts[involved].sum()) + 1))
+        found.append(CuttingPlane(involved, int(counts[involved].sum()) + 1))
     return found

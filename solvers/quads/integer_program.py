@@ -9,7 +9,7 @@ from scipy.optimize import Bounds, LinearConstraint, milp
 from scipy.sparse import coo_array, csr_array, eye_array, hstack
 
 from solvers.layouts.tmesh import TMesh
-from solvers.quads.collapse import Cut
+from solvers.quads.collapse import CuttingPlane
 from solvers.surface.triangulation import FloatArray, IntArray
 
 WINDOWS = (8.0, 64.0, np.inf)
@@ -80,7 +80,7 @@ def nearest_counts(
     measured: csr_array,
     balance: csr_array,
     least: IntArray,
-    cuts: list[Cut],
+    cuts: list[CuttingPlane],
     time_limit: float,
 ) -> tuple[IntArray | None, bool]:
     """Return counts in balance that are nearest to wanted ones, and whether they surely are.
@@ -95,7 +95,7 @@ def nearest_counts(
         Combinations that vanish.
     least : (A,) int array
         The smallest counts.
-    cuts : list of Cut
+    cuts : list of CuttingPlane
         Further conditions.
     time_limit : float
         Seconds after which the best counts found are taken.

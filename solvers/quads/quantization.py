@@ -17,9 +17,9 @@ from scipy.sparse import csr_array, vstack
 from solvers.errors import CrossviewError, SolveError
 from solvers.layouts.tmesh import TMesh
 from solvers.number_checks import real_number, whole_number
-from solvers.quads.collapse import Cut
+from solvers.quads.collapse import CuttingPlane
+from solvers.quads.cutting_planes import greedy_counts, separated_counts
 from solvers.quads.integer_program import arcs_alone, offsets
-from solvers.quads.unbroken import hasty, unbroken
 from solvers.surface.triangulation import IntArray
 
 MOST_QUADS = 2_000_000
@@ -133,7 +133,7 @@ def quantize(
             f"at most {MOST_QUADS:.3g}",
             "choose longer edges",
         )
-    cuts: list[Cut] = []
+    cuts: list[CuttingPlane] = []
     found = _nearest(tmesh, edge_length, collapse, time_limit, cuts)
     return _straightened(found, tmesh, collapse, STRAIGHTENING * time_limit, cuts)
 
@@ -184,7 +184,7 @@ def quantize_to(
     length = np.sqrt(tmesh.area / n_quads)
     low, high = 0.0, np.inf
     end = time.monotonic() + time_limit
-    cuts: list[Cut] = []
+    cuts: list[CuttingPlane] = []
     best = found = _nearest(tmesh, float(length), collapse, time_limit, cuts)
     for _ in range(MOST_TRIALS - 1):
         left = end - time.monotonic()
@@ -216,13 +216,13 @@ def number_of_quads(tmesh: TMesh, counts: IntArray) -> int:
 
 
 def _nearest(
-    tmesh: TMesh, edge_length: float, collapse: bool, time_limit: float, cuts: list[Cut]
+    tmesh: TMesh, edge_length: float, collapse: bool, time_limit: float, cuts: list[CuttingPlane]
 ) -> Quantization:
     """Return counts near to the arcs' lengths alone; conditions found on the way join `cuts`."""
     wanted, half = tmesh.lengths / edge_length, 0.5 * time_limit
-    counts, optimal = unbroken(tmesh, wanted, arcs_alone(tmesh), collapse, half, cuts)
+    counts, optimal = separated_counts(tmesh, wanted, arcs_alone(tmesh), collapse, half, cuts)
     if counts is None:
-        counts = hasty(tmesh, wanted, collapse, half, cuts)
+        counts = greedy_counts(tmesh, wanted, collapse, half, cuts)
     if counts is None and collapse:
         return _nearest(tmesh, edge_length, False, time_limit, [])
     if counts is None:
@@ -235,7 +235,7 @@ def _nearest(
 
 
 def _straightened(
-    found: Quantization, tmesh: TMesh, collapse: bool, time_limit: float, cuts: list[Cut]
+    found: Quantization, tmesh: TMesh, collapse: bool, time_limit: float, cuts: list[CuttingPlane]
 ) -> Quantization:
     """Return counts that are nearest with `offsets`, too, if there are any in time."""
     across = offsets(tmesh)
@@ -243,7 +243,7 @@ def _straightened(
         return found
     measured = csr_array(vstack([arcs_alone(tmesh), across]))
     wanted = tmesh.lengths / found.edge_length
-    counts, optimal = unbroken(tmesh, wanted, measured, collapse, time_limit, cuts)
+    counts, optimal = separated_counts(tmesh, wanted, measured, collapse, time_limit, cuts)
     if counts is not None:
         straight = _quantization(tmesh, counts, found.edge_length, optimal)
         if straight.deviation <= found.deviation:

@@ -15,8 +15,8 @@ from solvers.layouts.errors import LayoutError
 from solvers.layouts.gauge import joining_gauge
 from solvers.layouts.joined_map import JoinedMap
 from solvers.layouts.layout import QuadLayout, quad_layout
+from solvers.layouts.motorcycles import stops
 from solvers.layouts.nodes import singular_nodes, starts_at
-from solvers.layouts.stops import stops
 from solvers.layouts.tracing import NODE, Traces, trace
 from solvers.maps.seamless import seamless_map
 from solvers.primitives import BUILTIN

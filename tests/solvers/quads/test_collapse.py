@@ -104,7 +104,7 @@ def test_layouts_collapsed_in_haste_are_meshes_too(
 ) -> None:
     """Without time for the nearest counts."""
     t, surface = LAYOUTS[name]
-    monkeypatch.setattr("solvers.quads.unbroken.MOST_ROUNDS", 0)
+    monkeypatch.setattr("solvers.quads.cutting_planes.MOST_ROUNDS", 0)
     for edge_length in (0.3, 2.5, 30.0):
         found = quantize(t, edge_length, collapse=True)
         assert not found.optimal

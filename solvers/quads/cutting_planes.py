@@ -1,4 +1,4 @@
-"""Counts for the arcs of a T-mesh that make a mesh: what they break becomes a condition."""
+"""Counts for arcs that make a mesh, by cutting planes: what they break becomes one more."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from solvers.layouts.tmesh import TMesh
-from solvers.quads.collapse import Cut, broken, least_counts
+from solvers.quads.collapse import CuttingPlane, broken, least_counts
 from solvers.quads.integer_program import arcs_alone, balances, nearest_counts
 from solvers.surface.triangulation import FloatArray, IntArray
 
@@ -16,13 +16,13 @@ MOST_ROUNDS = 40
 """How often what the nearest counts break is ruled out, before longest arcs get an edge. Chosen."""
 
 
-def unbroken(
+def separated_counts(
     tmesh: TMesh,
     wanted: FloatArray,
     measured: csr_array,
     collapse: bool,
     time_limit: float,
-    cuts: list[Cut],
+    cuts: list[CuttingPlane],
 ) -> tuple[IntArray | None, bool]:
     """Return the nearest counts that make a mesh, if any in time, and whether they surely are.
 
@@ -40,7 +40,7 @@ def unbroken(
         Whether arcs may do without edges.
     time_limit : float
         Seconds.
-    cuts : list of Cut
+    cuts : list of CuttingPlane
         Conditions known; those found that hold for all lengths join them.
     """
     balance, least = balances(tmesh), least_counts(tmesh, collapse=collapse)
@@ -61,8 +61,8 @@ def unbroken(
     return None, False
 
 
-def hasty(
-    tmesh: TMesh, wanted: FloatArray, collapse: bool, time_limit: float, cuts: list[Cut]
+def greedy_counts(
+    tmesh: TMesh, wanted: FloatArray, collapse: bool, time_limit: float, cuts: list[CuttingPlane]
 ) -> IntArray | None:
     """Return counts that make a mesh, if any in time, though not the nearest.
 
@@ -78,7 +78,7 @@ def hasty(
         Whether arcs may do without edges.
     time_limit : float
         Seconds for each program.
-    cuts : list of Cut
+    cuts : list of CuttingPlane
         Conditions known.
     """
     balance, least = balances(tmesh), least_counts(tmesh, collapse=collapse)

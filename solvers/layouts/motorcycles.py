@@ -1,4 +1,4 @@
-"""How far traces are kept.
+"""The motorcycle graph of traces: how far each is kept.
 
 Traces that come to an end are kept whole. The others, limit cycles, stop where they first meet one
 that was there before them, at right angles: all of them grow at one speed, as the motorcycles of
