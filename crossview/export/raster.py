@@ -25,7 +25,7 @@ _NOMINAL_HEIGHT = 640.0
 _SUPERSAMPLING, _MOST_PIXELS = 2, 40e6
 """Each pixel is the mean of this many squared, as long as the whole stays below so many. Chosen."""
 
-_SHORTEST_SIDE, _LONGEST_SIDE = 16, 8192
+SHORTEST_SIDE, LONGEST_SIDE = 16, 8192
 """Sides of a picture, in pixels, at least and at most. Chosen, below what drivers draw at once."""
 
 _MULTI_SAMPLES = 4
@@ -137,11 +137,11 @@ def seen(view: SceneView, size: tuple[int, int], camera: str | Camera) -> Seen:
 def check_size(size: tuple[int, int], scale: float) -> tuple[int, int]:
     """Return the pixels of a picture, or raise if they are too few or too many to draw."""
     width, height = (side * scale for side in size)
-    if not (min(width, height) >= _SHORTEST_SIDE and max(width, height) <= _LONGEST_SIDE):
+    if not (min(width, height) >= SHORTEST_SIDE and max(width, height) <= LONGEST_SIDE):
         raise FigureError(
             f"cannot draw {width:g} x {height:g} pixels",
             "size times scale",
-            f"choose sides from {_SHORTEST_SIDE} to {_LONGEST_SIDE}",
+            f"choose sides from {SHORTEST_SIDE} to {LONGEST_SIDE}",
         )
     return round(width), round(height)
 
@@ -167,7 +167,7 @@ def _staged_scene(
 def _supersampling(width: int, height: int) -> int:
     fine = _SUPERSAMPLING
     while fine > 1 and (
-        fine * max(width, height) > _LONGEST_SIDE or fine**2 * width * height > _MOST_PIXELS
+        fine * max(width, height) > LONGEST_SIDE or fine**2 * width * height > _MOST_PIXELS
     ):
         fine -= 1
     return fine

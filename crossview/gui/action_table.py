@@ -337,6 +337,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "about", "About crossview", "Help", lambda w: w.show_about(), separated=True,
     ),
 )  # fmt: skip
+"""All actions: menus, toolbar, keys and palette are made from these."""
 
 TOOLBAR: tuple[str, ...] = (
     "open", "|", "undo", "redo", "|", "select", "add-3", "add-5", "add-6", "add-8", "add-any",
@@ -345,3 +346,4 @@ TOOLBAR: tuple[str, ...] = (
 """Names of actions; "|" is a line, "->" pushes the rest to the right."""
 
 LABELLED = ("open", "solve", "stop", "figure", "mesh")
+"""Actions of the toolbar with their words beside the icon."""

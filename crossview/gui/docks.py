@@ -9,9 +9,17 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QTabWidget, QWidget
 
 LEFT, RIGHT = Qt.DockWidgetArea.LeftDockWidgetArea, Qt.DockWidgetArea.RightDockWidgetArea
+"""Where panels are docked."""
+
 LEFT_WIDTH, RIGHT_WIDTH = 316, 232
+"""Widths of both sides at first, in pixels. Chosen."""
+
 LEFT_LEAST, RIGHT_LEAST = 272, 208
+"""Least widths of panels on both sides, in pixels. Chosen, for all words to be read."""
+
 LEFT_COLUMN = ("Surface", "Singularities", "Validity")
+"""Panels on the left, from the top; the others are on the right."""
+
 TABS = ("Convergence", "Quads", "Export")
 """Docks that share one place, the first in front."""
 

@@ -11,12 +11,17 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QToolButton, QVB
 from crossview.gui.icons import icon
 
 THUMBNAIL, SMALLEST = 208, 120
+"""Width of a picture, in pixels, at most and at least. Chosen."""
+
 ASPECT, GAP = 4 / 3, 16
+"""Width of a picture over its height; pixels between two. Chosen."""
+
 FEATURED = (
     ("sphere-cube", "Cube on a sphere"),
     ("disk-4", "Four on a disk"),
     ("suboptimal-a", "Plate with holes"),
 )
+"""Cases of the gallery that are offered, and what is said of them."""
 
 
 class EmptyState(QWidget):

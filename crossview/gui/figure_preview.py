@@ -14,6 +14,7 @@ from crossview.gui.panels import ExportPanel
 REST_MS = 250
 """How long nothing may change before it is drawn."""
 LEAST_WIDTH = 64
+"""Of what is drawn, in pixels of the screen. Chosen."""
 
 
 class FigurePreview(QObject):

@@ -16,6 +16,8 @@ from crossview.session.document import Document
 from crossview.session.session import Session
 
 FIGURES = "PNG picture (*.png);;SVG drawing (*.svg);;PDF drawing (*.pdf)"
+"""Kinds of figures, as file dialogs want them."""
+
 MESHES = ";;".join(
     f"{title} (*{suffix})"
     for title, suffix in (
@@ -28,7 +30,10 @@ MESHES = ";;".join(
         ("Gmsh", ".msh"),
     )
 )
+"""Kinds of quad meshes, likewise."""
+
 SAID_MS = 4000
+"""How long the status bar says what was written, milliseconds. Chosen."""
 
 
 class Files:

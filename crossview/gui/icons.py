@@ -14,6 +14,7 @@ from PySide6.QtWidgets import QApplication
 from crossview.view.colors import valence_color
 
 SIZES = (16, 20, 32, 40)
+"""Sizes that an icon is drawn in, in pixels: of menus and toolbars, and twice as fine."""
 
 
 def icon(name: str) -> QIcon:

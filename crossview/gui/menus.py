@@ -19,6 +19,7 @@ from crossview.session.hand import OWN_TOOLS
 SEARCHED = ("Natural singularities", "Mirror", "Rotate")
 """Submenus whose actions are in the palette: the others repeat some."""
 MENUS = ("File", "Edit", "Surface", "Singularities", "Solve", "View", "Gallery", "Help")
+"""Titles of the menus, from the left."""
 
 
 class Menus:

@@ -24,7 +24,10 @@ from crossview.view.colors import BAD
 from solvers.remedies import Remedy
 
 TINTS = {"error": BAD, "warning": "#b7791f", "info": "#2f6fde"}
+"""Colours of messages."""
+
 MOST_WIDTH, MARGIN = 720, 12
+"""Of a message, and its distance from the edges, in pixels. Chosen."""
 
 
 class MessageBar(QFrame):

@@ -15,6 +15,7 @@ from solvers.surface import SurfacePoint
 CLICK_REACH = 4.0
 """Pixels that the mouse may move between press and release of a click."""
 NOTCH = 120
+"""One notch of a wheel, from Qt: eighths of a degree."""
 
 
 class _Grip(Enum):

@@ -17,7 +17,10 @@ from PySide6.QtWidgets import (
 )
 
 WIDTH, ROWS = 480, 14
+"""Of the palette, in pixels and in rows. Chosen."""
+
 ROW, ICON = QSize(0, 26), QSize(16, 16)
+"""Sizes of a row and of an icon, in pixels. Chosen."""
 
 
 class Palette(QFrame):

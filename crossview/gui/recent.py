@@ -7,6 +7,7 @@ from pathlib import Path
 from PySide6.QtCore import QSettings
 
 KEY, MOST = "recent", 10
+"""Where settings keep the recent files, and how many. Chosen."""
 
 
 def recent() -> tuple[str, ...]:

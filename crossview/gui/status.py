@@ -15,6 +15,10 @@ from crossview.view.texts import energy, hover
 from solvers.progress import Progress
 
 PATIENCE_MS = 250
+"""How long a computation takes before its progress is shown, milliseconds.
+
+Chosen: a bar that flickers says less than none.
+"""
 
 
 class Status:

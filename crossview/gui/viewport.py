@@ -38,6 +38,8 @@ REST_MS = 300
 TITLE_PIXELS, BESIDE_TITLE = 17, 130
 """Height of the title's letters; pixels beside it that the axes need."""
 BASE_DPI = 72
+"""At which VTK draws a point of text as a pixel."""
+
 UNSEEN = {"focus", "message", "progress", "redo_name", "shown", "undo_name"}
 """Fields of the state of which the scene shows parts or nothing."""
 REACH = 7.0

@@ -19,7 +19,10 @@ METHOD_LABELS = {
 """What the methods are called, in the order of menus."""
 
 MIN_VALENCE = 1
+"""The least valence that the window offers: one separatrix."""
+
 MAX_VALENCE = 12
+"""The highest that the window offers. Chosen."""
 
 
 class Command(Protocol):

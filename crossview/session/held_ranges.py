@@ -12,6 +12,8 @@ from crossview.workflow.problem import Problem
 Range = tuple[float, float]
 Ranges = Mapping[str, Range]
 NO_RANGES: Ranges = MappingProxyType({})
+"""Where nothing is held."""
+
 HELD = {"H": ("H",), "H1": ("H1", "H2"), "H2": ("H1", "H2")}
 """Layers that a range is held for, by the layer shown."""
 

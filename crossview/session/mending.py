@@ -19,9 +19,7 @@ from crossview.session.rearrangements import distribute
 from solvers.progress import Progress
 from solvers.remedies import Remedy, UseMethod
 from solvers.singularities import AddMissing, ChangeOne, RemoveOne, Singularity, far_points
-from solvers.validity import PlaceAnew
-
-MOST_ADDED = 64
+from solvers.validity import MOST_PLACED, PlaceAnew
 
 
 @dataclass(frozen=True)
@@ -38,7 +36,7 @@ def mendings(document: Document) -> tuple[Remedy, ...]:
     found = [remedy for remedy in budget.remedies if _usual(remedy)]
     if missing > 1:
         found.insert(0, AddMissing.of(3 if budget.missing > 0 else 5, 1))
-    if missing <= MOST_ADDED:
+    if missing <= MOST_PLACED:
         found.append(DistributeMissing("distribute the missing index"))
     return tuple(found)
 
@@ -47,7 +45,7 @@ def _usual(remedy: Remedy) -> bool:
     """Whether singularities are as many, and of such valences, as the window offers."""
     match remedy:
         case AddMissing(valence=valence, count=count):
-            return valence <= MAX_VALENCE and count <= MOST_ADDED
+            return valence <= MAX_VALENCE and count <= MOST_PLACED
         case ChangeOne(valence=valence):
             return valence <= MAX_VALENCE
         case _:

@@ -52,6 +52,7 @@ class Meshes:
 
 
 NO_MESHES = Meshes()
+"""Before any layout or quads are made."""
 
 Making = Generator[Progress, None, Meshes]
 

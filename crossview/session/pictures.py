@@ -21,6 +21,7 @@ from solvers.fields import CrossField
 from solvers.surface import FloatArray, IntArray, TriSurface
 
 POOR_QUALITY = 0.1
+"""`TriSurface.triangle_quality` below which triangles are shown as poor. Chosen."""
 
 
 def scene_view(state: SessionState, held: Ranges = NO_RANGES) -> SceneView:

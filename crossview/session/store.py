@@ -16,6 +16,7 @@ from solvers.errors import CrossviewError, SurfaceError
 from solvers.remedies import Remedy, RepairSurface, TakeLargest, UseMethod
 
 MOST_LISTED = 200
+"""Elements of an error that are listed, at most. Chosen, for the clipboard."""
 
 
 class Store:

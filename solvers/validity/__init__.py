@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from solvers.validity.attempts import PlaceAnew, ValidityError, make_valid
-from solvers.validity.completion import missing_singularities
+from solvers.validity.completion import MOST_PLACED, missing_singularities
 from solvers.validity.guide import Guide, LevelLines
 from solvers.validity.search import Moved
 
 __all__ = [
+    "MOST_PLACED",
     "Guide",
     "LevelLines",
     "Moved",

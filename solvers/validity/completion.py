@@ -23,7 +23,7 @@ from solvers.surface.triangulation import QUARTER, BoolArray, FloatArray
 SWEEPS = 2
 """How often each is taken away and placed again, knowing all the others. Chosen."""
 
-MOST = 64
+MOST_PLACED = 64
 """How many are placed at most. Chosen: with more, a few of higher valence are meant."""
 
 CLEAR = 0.03
@@ -78,7 +78,7 @@ def missing_singularities(
     surface = solver.surface
     missing = index_budget(surface, singularities, solver.corners).missing
     count = abs(missing)
-    if count > MOST:
+    if count > MOST_PLACED:
         raise SingularityError(
             f"{count} singularities are missing", advice="add one of a higher valence first"
         )

@@ -15,11 +15,16 @@ from crossview.view.texts import aspect, energies
 from crossview.workflow.pipeline import Solution
 
 COLORS = {"valid": GOOD, "suspect": UNSURE, "impossible": BAD, "unknown": UNSURE}
+"""Of verdicts."""
+
 STOPPED = "Not converged: this is the last iterate before it was stopped."
+"""Said of a field whose iteration was stopped."""
+
 NO_ITERATIONS = {
     "isotropic": "Isotropic: solved at once, no iterations",
     "aligned": "Theta imposed: solved at once, no iterations",
 }
+"""Said of methods that have none."""
 
 
 class ConvergencePanel(QWidget):

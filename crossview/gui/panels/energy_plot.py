@@ -13,8 +13,13 @@ FLOOR = 1e-16
 """What an E of zero is drawn as."""
 
 LINE = QColor("#2f6fde")
+"""Colour of the curve."""
+
 MARGIN, DOT = 8.0, 2.5
+"""Around the curve, and radius of its dots, in pixels. Chosen."""
+
 MOST_DOTS = 60
+"""Iterations up to which each has a dot; with more only the last has. Chosen."""
 
 
 class EnergyPlot(QWidget):

@@ -16,11 +16,12 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from crossview.export.raster import LONGEST_SIDE, SHORTEST_SIDE
 from crossview.gui.figure import FigureSettings
 from crossview.view.texts import grouped
 
-MOST_PIXELS = 16384
 LEAST_PREVIEW = QSize(80, 48)
+"""Size of the preview at least, in pixels. Chosen."""
 
 
 class ExportPanel(QWidget):
@@ -97,7 +98,7 @@ class ExportPanel(QWidget):
 
 
 def _pixels(value: int) -> QSpinBox:
-    box = _box(16, MOST_PIXELS, value)
+    box = _box(SHORTEST_SIDE, LONGEST_SIDE, value)
     box.setSingleStep(100)
     return box
 

@@ -19,6 +19,8 @@ from crossview.session.state import SessionState
 from crossview.view.texts import count, degrees
 
 USUAL_ANGLE = 40.0
+"""Degrees that sharp edges bend by, if nothing else is said. Chosen."""
+
 STILL_MS = 600
 """How long the angle must stay before it is taken."""
 

@@ -17,6 +17,7 @@ from solvers.surface import FloatArray, IntArray
 BINS, STEP, LEAST_HEIGHT = 20, 0.1, 2.0
 """Bars, steps that the range begins at, and pixels that a bar with anything in it has."""
 MARGIN, GAP = 8.0, 1.0
+"""Beside the bars, and between two, in pixels. Chosen."""
 
 
 class Histogram(QWidget):

@@ -25,8 +25,13 @@ from crossview.view.colors import CYCLIC, DIVERGING, color_table
 from crossview.view.scalars import SCALARS
 
 STEPS = 100
+"""Steps of a slider. Chosen."""
+
 COLORINGS = {"quality": "Scaled Jacobian", "patch": "Patches", "plain": "Plain"}
-FACTOR = 4.0  # sliders of factors go from 1/FACTOR to FACTOR, 1 in the middle
+"""Names and labels of what quads are coloured by."""
+
+FACTOR = 4.0
+"""Sliders of factors go from 1 / FACTOR to FACTOR, 1 in the middle. Chosen."""
 
 
 class LayerEditor(QWidget):

@@ -20,6 +20,7 @@ from crossview.session.session import Session
 from crossview.session.state import SessionState
 
 ROW, LEAST_ROWS = 24, 5
+"""Height of a row in pixels, and rows that are always seen. Chosen."""
 
 
 class LayersPanel(QWidget):

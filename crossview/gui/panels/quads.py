@@ -32,8 +32,13 @@ from solvers.quads import MOST_QUADS
 from solvers.surface import TriSurface
 
 COUNT, LENGTH = range(2)
+"""Rows of the box that says what is asked for."""
+
 NOTHING = "No quads yet."
+"""Said before there are quads."""
+
 STALE = "The quads were of an earlier state and are gone; make them again."
+"""Said where an edit took them away."""
 
 
 class QuadsPanel(QScrollArea):

@@ -15,7 +15,11 @@ from crossview.view.texts import position, signed
 from solvers.singularities import Singularity
 
 NUMBER, VALENCE, INDEX, POSITION, LOCK = range(5)
+"""Columns of the table."""
+
 HEADERS = ("#", "Valence", "Index", "Position", "")
+"""Their titles."""
+
 Role = Qt.ItemDataRole
 AnyIndex = QModelIndex | QPersistentModelIndex
 

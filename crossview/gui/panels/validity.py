@@ -25,7 +25,10 @@ from crossview.view.texts import degrees, signed
 from solvers.remedies import Remedy
 
 DOT = QSize(14, 14)
+"""Size of the dot that tells the verdict, in pixels. Chosen."""
+
 BAR = 4
+"""Width of the bar in the colour of a condition, in pixels. Chosen."""
 
 
 class VerdictRow(QFrame):
