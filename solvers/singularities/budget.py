@@ -111,6 +111,11 @@ def checked_corners(surface: TriSurface, corners: Mapping[int, int]) -> dict[int
     corners : mapping of int to int
         Index by boundary vertex.
 
+    Returns
+    -------
+    dict of int to int
+        The same, of Python's own integers.
+
     Raises
     ------
     SingularityError
