@@ -1,5 +1,7 @@
 """What is done in a session and what follows, with real solves and no display."""
 
+import subprocess
+import sys
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -32,6 +34,17 @@ def far(tmp_path: Path) -> str:
     path = tmp_path / "far.json"
     replace(Case.load(path_of("annulus-far")), method="isotropic").save(path)
     return str(path)
+
+
+def test_it_needs_neither_qt_nor_vtk() -> None:
+    program = (
+        "import sys, crossview.session.session; print(*{m.split('.')[0] for m in sys.modules})"
+    )
+    loaded = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    ).stdout.split()
+    assert "crossview" in loaded
+    assert not {"PySide6", "pyvista", "pyvistaqt", "vtkmodules"} & set(loaded)
 
 
 def test_opening_solves_and_tells(held: Headless) -> None:
