@@ -65,3 +65,10 @@ def test_every_surface_of_the_tests_has_its_licence_beside_it() -> None:
     there = {path.name for path in DATA.iterdir()} - {"LICENSES.txt"}
     assert there == set(re.findall(r"^(\S+)\n  source : .+\n  licence: .+$", told, re.MULTILINE))
     assert there <= set(KNOWN)
+
+
+def test_the_citation_names_this_version() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8").splitlines()
+    for key in ("version", "license"):
+        assert f"{key}: {project[key]}" in citation
