@@ -171,7 +171,8 @@ class Factorization:
 
     def _relative(self, off: FloatArray, solution: FloatArray) -> float:
         largest = np.abs(solution).max(axis=0, initial=0.0)
-        share = (np.abs(off).T * self._by_row).max(axis=-1, initial=0.0)
+        by_row = self._by_row if off.ndim == 1 else self._by_row[:, None]
+        share = (np.abs(off) * by_row).max(axis=0, initial=0.0)
         return float((share / np.maximum(largest, np.finfo(float).tiny)).max(initial=0.0))
 
     def _advance(self, failure: str) -> None:

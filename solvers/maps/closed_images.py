@@ -131,13 +131,13 @@ class ClosestImages:
 
     def _closed(self, images: FloatArray) -> FloatArray:
         """Return the nearest images of edges, (2 ne,) or (2 ne, k), that close everywhere."""
-        closing, inverse = self.conditions.closing, self._inverse
+        closing = self.conditions.closing
+        inverse = self._inverse if images.ndim == 1 else self._inverse[:, None]
         for _ in range(PASSES):
             gap = closing @ images
             if np.abs(gap).max(initial=0.0) <= ROUNDING * np.abs(images).max(initial=0.0):
                 break
-            forces = closing.T @ self._factor.solve(gap)
-            images = images - (inverse * forces.T).T
+            images = images - inverse * (closing.T @ self._factor.solve(gap))
         return np.asarray(images)
 
     def _as_map(self, images: FloatArray) -> SeamlessMap:
@@ -149,7 +149,7 @@ class ClosestImages:
     def joining(self, rows: csc_array) -> Joining:
         """Return the rows of halfedges' images (k, 6 m) with the moves that change each."""
         wanted = csc_array(rows @ self.conditions.spread).toarray()
-        return Joining(rows, wanted, self._closed((self._inverse * wanted).T).T)
+        return Joining(rows, wanted, self._closed(self._inverse[:, None] * wanted.T).T)
 
     def joined(self, joining: Joining) -> SeamlessMap:
         """Return the nearest map on which also these combinations of its images vanish."""
