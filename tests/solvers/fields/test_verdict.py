@@ -106,3 +106,50 @@ def test_a_layout_is_refused_with_the_verdicts_words_and_made_where_it_allows() 
     wide = Limits.on(aligned.solver.holonomy, float(np.radians(1.2)))
     made = run(quad_layout(start, judge(start.field, limits=wide)))
     assert made.inverted == 0
+
+
+def test_without_a_case_a_hundredth_of_a_degree_and_rounding_are_allowed(field: CrossField) -> None:
+    for degrees, status in ((0.0095, "valid"), (0.0105, "impossible")):
+        assert judge(replace(field, defects=np.radians([degrees])), 0).status == status
+    for energy, status in ((1e-12, "valid"), (1e-7, "suspect")):
+        assert judge(with_energy(field, energy), 0).status == status
+
+
+def test_crosses_that_differ_by_what_rounding_leaves_on_real_surfaces_close(
+    field: CrossField,
+) -> None:
+    assert judge(replace(field, max_closing_error=1e-8), 0).status == "valid"
+
+
+def test_a_fifth_of_a_degree_on_an_annulus_is_as_good_as_none() -> None:
+    """The mesh can tell no less: a layout is made, and called suspect."""
+    for off, refused in ((0.19, False), (0.24, True)):
+        aligned = turned_pairs(off)
+        start = IntegratedField(aligned, aligned.start)
+        assert start.field.max_closing_error < 1e-9
+        verdict = judge(start.field)
+        assert (verdict.status, verdict.refused) == ("suspect", refused)
+        assert bool(verdict.remedies) == refused
+
+
+def test_quads_twenty_times_longer_than_wide_are_suspect(field: CrossField) -> None:
+    for ratio, status in ((19.0, "valid"), (21.0, "suspect")):
+        stretched = replace(field, half_log_aspect=np.full((len(field.u), 3), np.log(ratio) / 2))
+        verdict = judge(stretched, 0)
+        assert (verdict.status, verdict.refused) == (status, False)
+    assert "factor of 21" in verdict.reason
+
+
+def test_an_aspect_that_does_not_settle_is_suspect(field: CrossField) -> None:
+    """Possible fields grow by a tenth when refined, forced ones by a third or more."""
+    for growth, status in ((None, "valid"), (1.11, "valid"), (1.35, "suspect")):
+        verdict = judge(field, 0, growth)
+        assert (verdict.status, verdict.refused) == (status, False)
+    assert "35%" in verdict.reason
+
+
+def test_inverted_triangles_are_told_before_aspect_and_growth(field: CrossField) -> None:
+    assert judge(field, 1, growth=2.0).reason == "1 triangle is inverted in the seamless map."
+    assert judge(field, 3).reason.startswith("3 triangles are inverted")
+    assert "turns no triangle over" in judge(field, 0).reason
+    assert "map" not in judge(field).reason
