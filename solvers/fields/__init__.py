@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from solvers.fields.aligned import AlignedField, IntegratedField, aligned_field
-from solvers.fields.connection import Condition
+from solvers.fields.connection import Condition, Discretization
 from solvers.fields.crossfield import Convergence, CrossField
 from solvers.fields.holonomy import Holonomy
 from solvers.fields.integrable import FieldStep, alternating_field, anisotropic_field
@@ -29,6 +29,7 @@ __all__ = [
     "Convergence",
     "CrossField",
     "CrossesStep",
+    "Discretization",
     "FieldStep",
     "Holonomy",
     "IntegratedField",

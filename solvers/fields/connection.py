@@ -96,6 +96,22 @@ class Discretization:
         The walk, from the reference boundary halfedge (or face 0 of a closed surface).
     reference : int
         Halfedge of the longest boundary the crosses are aligned with; -1 on closed surfaces.
+
+    Examples
+    --------
+    Sheared triangles have negative weights; inside, their Delaunay triangulation has none (Bobenko
+    and Springborn 2007):
+
+    >>> from solvers.fields import Discretization
+    >>> from solvers.primitives import annulus
+    >>> from solvers.surface import TriSurface
+    >>> flat = annulus(n=24)
+    >>> sheared = TriSurface(flat.vertices + flat.vertices[:, [1]] * [2.0, 0.0, 0.0], flat.faces)
+    >>> discretization = Discretization(sheared)
+    >>> for t in (sheared.triangulation, discretization.triangulation):
+    ...     print(bool(t.weights[t.twin >= 0].min() > -1e-9))
+    False
+    True
     """
 
     def __init__(
@@ -266,7 +282,9 @@ class Discretization:
 
         Parameters
         ----------
-        theta, offsets
+        theta : (m,) float array
+            As of `closing`.
+        offsets : (m, 3) float array
             As of `closing`.
 
         Returns
@@ -287,7 +305,9 @@ class Discretization:
 
         Parameters
         ----------
-        theta, offsets
+        theta : (m,) float array
+            As of `closing`.
+        offsets : (m, 3) float array
             As of `closing`.
         defects : (2 g + max(b - 1, 0),) float array
             As of `defects`.
@@ -320,7 +340,9 @@ class Discretization:
 
         Parameters
         ----------
-        theta, offsets
+        theta : (m,) float array
+            As of `closing`.
+        offsets : (m, 3) float array
             As of `closing`.
 
         Returns
@@ -336,7 +358,9 @@ class Discretization:
 
         Parameters
         ----------
-        theta, offsets
+        theta : (m,) float array
+            As of `closing`.
+        offsets : (m, 3) float array
             As of `closing`.
 
         Returns
@@ -353,7 +377,9 @@ class Discretization:
 
         Parameters
         ----------
-        theta, offsets
+        theta : (m,) float array
+            As of `closing`.
+        offsets : (m, 3) float array
             As of `closing`.
 
         Returns
@@ -370,7 +396,9 @@ class Discretization:
 
         Parameters
         ----------
-        theta, offsets
+        theta : (m,) float array
+            As of `closing`.
+        offsets : (m, 3) float array
             As of `closing`.
 
         Returns
