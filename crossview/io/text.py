@@ -1,4 +1,8 @@
-"""Readers for OBJ and OFF: the libraries split vertices at seams, or take triangles only."""
+"""Readers for OBJ and OFF: the libraries split vertices at seams, or take triangles only.
+
+Files are read at once; those that cannot be are read line by line, which names the line that is
+wrong.
+"""
 
 from __future__ import annotations
 
@@ -8,11 +12,53 @@ from pathlib import Path
 import numpy as np
 
 from crossview.io.polygons import Polygons
+from crossview.io.words import Words
 from solvers.errors import CrossviewError
+
+KINDS = (b"OFF", b"COFF", b"NOFF", b"CNOFF", b"STOFF")
+"""First words of OFF files in text form."""
 
 
 def read_obj(path: Path) -> Polygons:
     """Read vertices and faces of a Wavefront OBJ file; texture and normals play no part."""
+    try:
+        words = Words.of(path.read_bytes(), slashed=b"f")
+        vertices, faces = words.starting(b"v"), words.starting(b"f")
+        sizes = words.count[faces] - 1
+        points = words.numbers(vertices, 1, 3)
+        corners = words.whole_numbers(faces, 1, sizes)
+        if (sizes < 3).any() or not corners.all():
+            raise ValueError
+    except ValueError:
+        return _read_obj_by_line(path)
+    # negative numbers count back from the latest vertex
+    known = np.repeat(np.searchsorted(vertices, faces), sizes)
+    return Polygons(points, sizes, np.where(corners > 0, corners - 1, known + corners))
+
+
+def read_off(path: Path) -> Polygons:
+    """Read an OFF file in text form, also with colours, normals or texture (COFF, NOFF, STOFF)."""
+    try:
+        words = Words.of(path.read_bytes())
+        line = 1 if words.count[:1].tolist() == [1] else 0
+        head = words.whole_numbers(np.array([line]), 1 - line, np.array([2]))
+        n_points, n_faces = head.tolist()
+        first = line + 1
+        whole = min(n_points, n_faces) >= 0 and len(words.first) >= first + n_points + n_faces
+        if words.text[0].upper() not in KINDS or not whole:
+            raise ValueError
+        points = words.numbers(first + np.arange(n_points), 0, 3)
+        faces = first + n_points + np.arange(n_faces)
+        sizes = words.whole_numbers(faces, 0, np.ones(n_faces, dtype=np.int64))
+        corners = words.whole_numbers(faces, 1, sizes)
+        if (sizes < 3).any():
+            raise ValueError
+    except (ValueError, IndexError):
+        return _read_off_by_line(path)
+    return Polygons(points, sizes, corners)
+
+
+def _read_obj_by_line(path: Path) -> Polygons:
     points: list[list[float]] = []
     sizes: list[int] = []
     corners: list[int] = []
@@ -35,12 +81,11 @@ def read_obj(path: Path) -> Polygons:
     )
 
 
-def read_off(path: Path) -> Polygons:
-    """Read an OFF file in text form, also with colours, normals or texture (COFF, NOFF, STOFF)."""
+def _read_off_by_line(path: Path) -> Polygons:
     lines = _lines(path)
     number, words = next(lines, (1, []))
     try:
-        if words[0].upper() not in ("OFF", "COFF", "NOFF", "CNOFF", "STOFF"):
+        if words[0].upper().encode("latin-1") not in KINDS:
             raise ValueError
         if len(words) == 1:
             number, words = next(lines)
