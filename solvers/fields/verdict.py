@@ -241,7 +241,7 @@ def _judge_quality(field: CrossField, inverted: int | None, growth: float | None
             "suspect",
             f"The aspect does not settle: int |grad s|^2 grows by {growth - 1:.0%} when refined.",
         )
-    mapped = "" if inverted is None else ", and its map turns no triangle over"
+    mapped = "" if inverted is None else ", and its map has no inverted triangle"
     return Verdict("valid", f"The field is aligned and integrable{mapped}.")
 
 

@@ -151,5 +151,5 @@ def test_an_aspect_that_does_not_settle_is_suspect(field: CrossField) -> None:
 def test_inverted_triangles_are_told_before_aspect_and_growth(field: CrossField) -> None:
     assert judge(field, 1, growth=2.0).reason == "1 triangle is inverted in the seamless map."
     assert judge(field, 3).reason.startswith("3 triangles are inverted")
-    assert "turns no triangle over" in judge(field, 0).reason
+    assert "no inverted triangle" in judge(field, 0).reason
     assert "map" not in judge(field).reason
