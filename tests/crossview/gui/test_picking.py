@@ -9,7 +9,7 @@ import pyvista as pv
 from crossview.gui.picking import Picker
 from crossview.scene import Scene, SceneView, ensure_rendering
 from solvers.primitives import disk, sphere
-from solvers.surface.trisurface import TriSurface
+from solvers.surface import TriSurface
 
 BALL = sphere(3)
 

@@ -11,7 +11,7 @@ from crossview.session.opening import Opening
 from crossview.session.store import offered
 from crossview.workflow.quads import MeshOptions
 from solvers.errors import CrossviewError, SurfaceError
-from solvers.layouts.errors import LayoutError
+from solvers.layouts import LayoutError
 from solvers.remedies import ANISOTROPIC, MAKE_VALID, RepairSurface, TakeLargest
 from tests.windowing import Hand
 

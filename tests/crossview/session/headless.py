@@ -9,8 +9,7 @@ import numpy as np
 
 from crossview.session.session import Session
 from crossview.session.state import SessionState
-from solvers.surface.points import SurfacePoint
-from solvers.surface.triangulation import FloatArray
+from solvers.surface import FloatArray, SurfacePoint
 
 PATIENCE = 60.0
 T = TypeVar("T")

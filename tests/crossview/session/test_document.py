@@ -7,7 +7,7 @@ from crossview.session.commands import AddSingularities
 from crossview.session.document import Document
 from crossview.session.opening import Opening, open_target
 from solvers.progress import run
-from solvers.singularities.budget import Singularity
+from solvers.singularities import Singularity
 
 
 def test_square_has_four_corners_and_keeps_its_budget() -> None:

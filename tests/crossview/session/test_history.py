@@ -12,8 +12,8 @@ from crossview.session.commands import (
 )
 from crossview.session.document import Document
 from crossview.session.history import History
-from solvers.singularities.budget import Singularity
-from solvers.surface.points import SurfacePoint
+from solvers.singularities import Singularity
+from solvers.surface import SurfacePoint
 
 CENTRE = (1 / 3, 1 / 3, 1 / 3)
 

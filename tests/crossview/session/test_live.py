@@ -6,7 +6,7 @@ from crossview.session.document import Document
 from crossview.session.live import LiveBase, LiveEdit, cut, prepare
 from crossview.workflow.pipeline import Pipeline
 from solvers.progress import run
-from solvers.singularities.budget import Singularity
+from solvers.singularities import Singularity
 
 ANGLES = np.radians([10.0, 100.0, 190.0, 280.0])
 

@@ -12,9 +12,8 @@ from crossview.session.document import Document
 from crossview.session.mending import mend, mendings
 from solvers.progress import run
 from solvers.remedies import ANISOTROPIC, RepairSurface
-from solvers.singularities.budget import Singularity
-from solvers.singularities.farthest import far_points
-from solvers.validity.attempts import ValidityError, make_valid
+from solvers.singularities import Singularity, far_points
+from solvers.validity import ValidityError, make_valid
 
 
 def document(surface: dict[str, object], *singularities: tuple[list[float], int]) -> Document:

@@ -26,8 +26,8 @@ from crossview.session.commands import (
 from crossview.session.document import Document
 from crossview.session.history import History
 from crossview.workflow.marking import Marking
-from solvers.singularities.budget import Singularity
-from solvers.surface.points import SurfacePoint
+from solvers.singularities import Singularity
+from solvers.surface import SurfacePoint
 
 OPENED = [
     Document.from_case(name, Case(Builtin(name, {"n": 12}))) for name in ("square", "annulus")

@@ -13,7 +13,7 @@ from crossview.session.history import History
 from crossview.session.live import LiveBase
 from crossview.session.method_solver import MethodSolver, MethodStep
 from crossview.session.waypoints import NATURAL_LABELS, Waypoint, move_to_validity, place_natural
-from solvers.fields.natural import NATURAL_METHODS
+from solvers.fields import NATURAL_METHODS
 from solvers.progress import Progress, run
 
 
