@@ -183,3 +183,17 @@ def test_anisotropic_fields_and_maps_stay_what_they_are() -> None:
     layout = run(quad_layout(solved))
     sides = layout.tmesh.side_totals(layout.tmesh.lengths)
     assert sides[:, :2] == pytest.approx(sides[:, 2:], abs=1e-11)
+
+
+@pytest.mark.parametrize("lower", [True, False])
+@pytest.mark.parametrize("columns", [(), (1,), (5,), (0,)])
+def test_the_accelerator_is_enough_where_it_is_right(
+    columns: tuple[int, ...], lower: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("rslab")
+    monkeypatch.setattr(factorization, "splu", None)  # nothing to fall back to
+    whole = csc_array(stiffness(BUILTIN["disk"](edge_length=0.15).triangulation)[1:, 1:])
+    factor = Analysis(lower=lower).factor(csc_array(tril(whole)) if lower else whole)
+    expected = np.random.default_rng(0).normal(size=(whole.shape[0], *columns))
+    for right in (whole @ expected, np.asfortranarray(whole @ expected)):
+        assert factor.solve(right) == pytest.approx(expected, abs=1e-9)
