@@ -130,9 +130,10 @@ def real_numbers(
     values: npt.ArrayLike,
     shape: Sequence[int | None] | None = None,
     *,
+    finite: bool = False,
     error: type[CrossviewError] = CrossviewError,
 ) -> FloatArray:
-    """Return values as a new array of floats, finite or not.
+    """Return values as a new array of floats.
 
     Parameters
     ----------
@@ -142,6 +143,8 @@ def real_numbers(
         What was given.
     shape : sequence of int or None, optional
         The wanted shape; None for any length.
+    finite : bool, optional
+        Whether they must be finite and below `LARGEST`.
     error : type, optional
         What is raised.
 
@@ -159,7 +162,10 @@ def real_numbers(
     Traceback (most recent call last):
     solvers.errors.CrossviewError: the position must be 3 numbers, not 2
     """
-    return np.array(_table(name, values, shape, "numbers", error), dtype=np.float64)
+    numbers = np.array(_table(name, values, shape, "numbers", error), dtype=np.float64)
+    if finite and not (np.abs(numbers) < LARGEST).all():
+        raise error(f"{name} must be finite numbers, not {_shown(numbers.tolist())}")
+    return numbers
 
 
 def whole_numbers(
@@ -167,6 +173,7 @@ def whole_numbers(
     values: npt.ArrayLike,
     shape: Sequence[int | None] | None = None,
     *,
+    below: int | None = None,
     error: type[CrossviewError] = CrossviewError,
 ) -> IntArray:
     """Return values as a new array of ints.
@@ -175,6 +182,8 @@ def whole_numbers(
     ----------
     name, values, shape, error
         As of `real_numbers`.
+    below : int, optional
+        They are numbers of things that there are so many of, from 0.
 
     Raises
     ------
@@ -196,10 +205,14 @@ def whole_numbers(
         wrong = ~((np.abs(table) <= EXACT) & (table == np.rint(table)))
     else:
         wrong = table > np.iinfo(np.int64).max
+    kind = "whole numbers"
+    if below is not None:
+        wrong |= (table < 0) | (table >= below)
+        kind += f" from 0 to {below - 1}"
     if wrong.any():
         first = tuple(np.argwhere(wrong)[0].tolist())
         place = f"row {first[0]}" if first else ""
-        raise error(f"{name} must be whole numbers, not {table[first]}", place)
+        raise error(f"{name} must be {kind}, not {table[first]}", place)
     return np.array(table, dtype=np.int64)
 
 

@@ -22,10 +22,15 @@ from crossview.cases.model import (
 from crossview.cases.parts import Polyline
 from crossview.workflow.loading import load_surfaces
 from crossview.workflow.marking import EdgeTracer, Marking
-from solvers.errors import CrossviewError
 from solvers.features import Features
+from solvers.kind_checks import one_of_kind
 from solvers.repair import Repaired
-from solvers.singularities import Singularity, checked_corners, default_corners
+from solvers.singularities import (
+    Singularity,
+    checked_corners,
+    checked_singularities,
+    default_corners,
+)
 from solvers.surface import FloatArray, TriSurface
 
 REACH = 0.05
@@ -82,14 +87,11 @@ class Problem:
 
     def __post_init__(self) -> None:
         check_method(self.method, "method")
-        given = tuple(self.singularities)
-        if not all(isinstance(s, Singularity) for s in given):
-            raise CrossviewError(
-                "a singularity is given as something else",
-                "singularities",
-                "give Singularity values",
-            )
-        object.__setattr__(self, "singularities", given)
+        advice = "crossview.read_surface reads one, primitives make one"
+        one_of_kind("the surface of a problem", self.surface, TriSurface, advice)
+        one_of_kind("the options of a problem", self.options, Options)
+        one_of_kind("the marking of a problem", self.marking, Marking)
+        object.__setattr__(self, "singularities", checked_singularities(self.singularities))
         if self.corners is not None:
             object.__setattr__(self, "corners", checked_corners(self.surface, self.corners))
 

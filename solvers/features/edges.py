@@ -10,9 +10,13 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+import numpy.typing as npt
 from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import connected_components, depth_first_order
 
+from solvers.errors import CrossviewError, listed
+from solvers.frozen import freeze_arrays
+from solvers.kind_checks import one_of_kind
 from solvers.singularities.budget import TIE
 from solvers.surface.refinement import Refinement
 from solvers.surface.triangulation import FloatArray, IntArray, next_halfedge, previous_halfedge
@@ -80,7 +84,12 @@ class Features:
     surface : TriSurface
         Where.
     edges : (k,) int array
-        Their numbers among the surface's edges, ascending; none on the boundary.
+        Their numbers among the surface's edges, none on the boundary; kept in ascending order.
+
+    Raises
+    ------
+    CrossviewError
+        If the surface has no such edge, or it is on the boundary.
 
     Examples
     --------
@@ -98,6 +107,40 @@ class Features:
 
     surface: TriSurface
     edges: IntArray
+
+    def __post_init__(self) -> None:
+        one_of_kind("the surface of features", self.surface, TriSurface)
+        edges = self.surface.require_edges(self.edges)
+        border = edges[self.surface.edge_faces[edges, 1] < 0]
+        if len(border):
+            raise CrossviewError(
+                "edges on the boundary are no features",
+                f"edges {listed(border)}",
+                "leave them out: crosses follow every boundary",
+            )
+        object.__setattr__(self, "edges", np.unique(edges))
+        freeze_arrays(self)
+
+    def require_on(self, surface: TriSurface) -> Features:
+        """Return them if they are features of a surface.
+
+        Parameters
+        ----------
+        surface : TriSurface
+            Which they are used on.
+
+        Raises
+        ------
+        CrossviewError
+            They are features of another surface, whose edges have other numbers.
+        """
+        if self.surface.mark != surface.mark:
+            raise CrossviewError(
+                "features of another surface are given",
+                f"it has {self.surface.n_faces} triangles, this one {surface.n_faces}",
+                "make them for this one",
+            )
+        return self
 
     def __len__(self) -> int:
         """Return how many there are."""
@@ -214,14 +257,20 @@ class Features:
         last = ends[-1][ends[-1] != between[-1]]
         return FeatureCurve(members, np.concatenate([first, between, last]))
 
-    def united(self, edges: IntArray) -> Features:
+    def united(self, edges: npt.ArrayLike) -> Features:
         """Return these and further edges; those on the boundary are left out.
 
         Parameters
         ----------
-        edges : (l,) int array
+        edges : (l,) array_like of int
             Among the surface's edges.
+
+        Raises
+        ------
+        CrossviewError
+            If the surface has no such edge.
         """
+        edges = self.surface.require_edges(edges)
         inner = edges[self.surface.edge_faces[edges, 1] >= 0]
         return Features(self.surface, np.union1d(self.edges, inner))
 

@@ -118,7 +118,7 @@ class Discretization:
         self, surface: TriSurface, *, delaunay: bool = True, features: Features | None = None
     ) -> None:
         self.surface = surface
-        self.features = no_features(surface) if features is None else features
+        self.features = no_features(surface) if features is None else features.require_on(surface)
         own = surface.triangulation
         self.handles = handle_loops(own, surface.boundary_loops)
         starts = self._boundary_starts(own)
@@ -188,7 +188,7 @@ class Discretization:
         points : sequence of SurfacePoint
             Points of the surface.
         """
-        self.surface.require_own(points)
+        points = self.surface.require_own(points)
         faces = np.array([p.face for p in points], dtype=np.int64)
         weights = np.array([p.barycentric for p in points]).reshape(-1, 3)
         own = self.surface.triangulation.corner_positions[faces]

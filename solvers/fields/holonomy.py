@@ -6,14 +6,14 @@ exactly when every defect is zero (paper, section "Valid singularity configurati
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 
 import numpy as np
 
 from solvers.algebra.factorization import Factorization
 from solvers.fields.connection import Condition, Discretization
-from solvers.singularities.budget import Singularity
+from solvers.singularities.budget import Singularity, checked_singularities
 from solvers.surface.points import SurfacePoint
 from solvers.surface.triangulation import QUARTER, FloatArray, IntArray, next_halfedge, wrap
 
@@ -134,12 +134,12 @@ class Holonomy:
         at = np.stack([1 - second - third, second, third], axis=1)
         return np.asarray(np.einsum("ckj,kj->ck", self._corner_values[:, located.face], at))
 
-    def defects(self, singularities: Sequence[Singularity]) -> FloatArray:
+    def defects(self, singularities: Iterable[Singularity]) -> FloatArray:
         """Return the defects of a configuration, without solving.
 
         Parameters
         ----------
-        singularities : sequence of Singularity
+        singularities : iterable of Singularity
             Anywhere on the surface.
 
         Returns
@@ -147,8 +147,9 @@ class Holonomy:
         (2 g + max(b - 1, 0),) float array
             Radians in (-pi/4, pi/4]; meaningful when the index budget is met.
         """
-        faces, weights = self.discretization.place([s.point for s in singularities])
-        index = np.array([s.index for s in singularities], dtype=np.float64)
+        placed = checked_singularities(singularities)
+        faces, weights = self.discretization.place([s.point for s in placed])
+        index = np.array([s.index for s in placed], dtype=np.float64)
         potential = np.einsum("ckj,kj->ck", self._corner_values[:, faces], weights)
         return wrap(self._constant + QUARTER * potential @ index, QUARTER)
 

@@ -7,7 +7,7 @@ solution, and a walk over a spanning tree of the triangles finds it.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from copy import copy
 from functools import cached_property
 
@@ -25,6 +25,7 @@ from solvers.number_checks import real_number
 from solvers.singularities.budget import (
     Singularity,
     checked_corners,
+    checked_singularities,
     default_corners,
     require_budget,
 )
@@ -130,12 +131,12 @@ class IsotropicSolver:
         other.gauge = self.gauge + real_number("the angle", angle)
         return other
 
-    def solve(self, singularities: Sequence[Singularity]) -> CrossField:
+    def solve(self, singularities: Iterable[Singularity]) -> CrossField:
         """Return the field of a configuration, by one back-substitution and one walk.
 
         Parameters
         ----------
-        singularities : sequence of Singularity
+        singularities : iterable of Singularity
             Anywhere inside the surface, at most one in each triangle's interior. The field is
             the exact discrete one with each of them inserted as a vertex.
 
@@ -148,6 +149,7 @@ class IsotropicSolver:
         SingularityError
             If the index budget is missed, or singularities coincide or lie on the boundary.
         """
+        singularities = checked_singularities(singularities)
         require_budget(self.surface, singularities, self.corners)
         faces, weights = self.discretization.place([s.point for s in singularities])
         self._check_places(faces, weights)
@@ -163,7 +165,7 @@ class IsotropicSolver:
         defects = d.defects(theta, offsets)
         return CrossField(
             surface=self.surface,
-            singularities=tuple(singularities),
+            singularities=singularities,
             corners=self.corners,
             method="isotropic",
             H=h,
@@ -178,12 +180,12 @@ class IsotropicSolver:
             feature_misalignment=d.feature_misalignment(theta, offsets),
         )
 
-    def cut_graph(self, singularities: Sequence[Singularity]) -> IntArray:
+    def cut_graph(self, singularities: Iterable[Singularity]) -> IntArray:
         """Return the cut graph of a configuration (paper, branch cut L).
 
         Parameters
         ----------
-        singularities : sequence of Singularity
+        singularities : iterable of Singularity
             Those inside a triangle are met at its nearest corner.
 
         Returns
@@ -192,7 +194,8 @@ class IsotropicSolver:
             End vertices of each edge of the surface in the cut.
         """
         own = self.surface.triangulation
-        nearest = [self.surface.nearest_vertex(s.point) for s in singularities]
+        placed = checked_singularities(singularities)
+        nearest = [self.surface.nearest_vertex(s.point) for s in placed]
         h = cut_graph(
             own,
             self.surface.boundary_loops,

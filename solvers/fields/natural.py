@@ -158,7 +158,8 @@ def natural_singularities(
     Raises
     ------
     CrossviewError
-        If the method or the alignment is unknown, or the weight is negative or not finite.
+        If the method or the alignment is unknown, the weight is negative or not finite, or the
+        features are of another surface.
 
     Notes
     -----
@@ -186,7 +187,8 @@ def natural_singularities(
     weight = real_number("the weight of the curvature", weight, 0)
     seed = whole_number("the seed", seed, 0)
     pull = weight if alignment == "curvature" else 0.0
-    problem = _Crosses(surface, no_features(surface) if features is None else features, pull)
+    along = no_features(surface) if features is None else features.require_on(surface)
+    problem = _Crosses(surface, along, pull)
     z = yield from {
         "mbo": problem.mbo,
         "ginzburg-landau": problem.ginzburg_landau,

@@ -7,14 +7,19 @@ its singularities at vertices. `prepare` makes both true, so that nothing later 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 from solvers.errors import SingularityError
 from solvers.features.edges import Features, no_features
 from solvers.fields.isotropic import IsotropicSolver
-from solvers.singularities.budget import Singularity, default_corners
+from solvers.singularities.budget import (
+    Singularity,
+    checked_corners,
+    checked_singularities,
+    default_corners,
+)
 from solvers.surface.delaunay import TOLERANCE
 from solvers.surface.points import SurfacePoint
 from solvers.surface.refinement import LEVELS, Refinement, refine_at, refine_everywhere
@@ -131,12 +136,12 @@ class PreparedSurface:
         """The edges of the refined surface that crosses are to follow."""
         return self.operators.features
 
-    def with_valences(self, singularities: Sequence[Singularity]) -> PreparedSurface:
+    def with_valences(self, singularities: Iterable[Singularity]) -> PreparedSurface:
         """Return the same surface, its factors kept, for other valences at the same places.
 
         Parameters
         ----------
-        singularities : sequence of Singularity
+        singularities : iterable of Singularity
             On the surface given, where those were that it was prepared for.
 
         Raises
@@ -144,13 +149,13 @@ class PreparedSurface:
         SingularityError
             They are somewhere else.
         """
-        if tuple(s.point for s in singularities) != self.places:
+        given = checked_singularities(singularities)
+        if tuple(s.point for s in given) != self.places:
             raise SingularityError(
                 "the surface is prepared for singularities elsewhere", "", "prepare it for these"
             )
         placed = tuple(
-            replace(s, point=at.point)
-            for s, at in zip(singularities, self.singularities, strict=True)
+            replace(s, point=at.point) for s, at in zip(given, self.singularities, strict=True)
         )
         return replace(self, singularities=placed)
 
@@ -171,7 +176,7 @@ class PreparedSurface:
 
 def prepare(
     surface: TriSurface,
-    singularities: Sequence[Singularity] = (),
+    singularities: Iterable[Singularity] = (),
     *,
     refine: int = LEVELS,
     corners: Mapping[int, int] | None = None,
@@ -183,7 +188,7 @@ def prepare(
     ----------
     surface : TriSurface
         What to refine.
-    singularities : sequence of Singularity
+    singularities : iterable of Singularity
         On vertices, on edges or inside triangles of the surface.
     refine : int, optional
         How many times edges are halved near the singularities; 0 only inserts them.
@@ -198,6 +203,11 @@ def prepare(
     PreparedSurface
         The refined surface, its factored operators, and the configuration on it.
 
+    Raises
+    ------
+    CrossviewError
+        If a singularity, a corner or a feature is none of the surface.
+
     Examples
     --------
     >>> from solvers.fields import prepare
@@ -209,18 +219,19 @@ def prepare(
     >>> max(prepared.singularities[0].point.barycentric)
     1.0
     """
-    along = no_features(surface) if features is None else features
-    places = tuple(s.point for s in singularities)
+    along = no_features(surface) if features is None else features.require_on(surface)
+    given = checked_singularities(singularities)
+    places = tuple(s.point for s in given)
     refinement = refine_at(surface, places, refine, along.edges)
     fine = refinement.surface
     # refinement keeps the numbers of vertices, so the corners stay where they are
-    chosen = default_corners(surface) if corners is None else corners
+    chosen = default_corners(surface) if corners is None else checked_corners(surface, corners)
     return PreparedSurface(
         refinement,
         places,
         tuple(
             replace(s, point=fine.point_at_vertex(int(vertex)))
-            for s, vertex in zip(singularities, refinement.vertices, strict=True)
+            for s, vertex in zip(given, refinement.vertices, strict=True)
         ),
-        Operators(fine, dict(chosen), along.refined(refinement)),
+        Operators(fine, chosen, along.refined(refinement)),
     )

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from solvers.errors import SingularityError
+from solvers.kind_checks import all_of_kind, one_of_kind
 from solvers.number_checks import whole_number
 from solvers.remedies import Remedy, in_words
 from solvers.singularities.remedies import AddMissing, ChangeOne, RemoveOne
@@ -37,7 +38,7 @@ class Singularity:
     Raises
     ------
     SingularityError
-        Unless the valence is a whole number, at least 1.
+        Unless it has a point, and its valence is a whole number, at least 1.
 
     Examples
     --------
@@ -56,15 +57,52 @@ class Singularity:
     locked: bool = False
 
     def __post_init__(self) -> None:
+        advice = "take one of the surface, as closest_point gives"
+        one_of_kind(
+            "the point of a singularity", self.point, SurfacePoint, advice, error=SingularityError
+        )
         valence = whole_number(
             "the valence of a singularity", self.valence, 1, error=SingularityError
         )
+        if not isinstance(self.locked, bool | np.bool_):
+            raise SingularityError(f"locked must be True or False, not {self.locked!r}")
         object.__setattr__(self, "valence", valence)
+        object.__setattr__(self, "locked", bool(self.locked))
 
     @property
     def index(self) -> int:
         """Index k = 4 - valence, in quarter turns (paper, section 2)."""
         return 4 - self.valence
+
+
+def checked_singularities(singularities: Iterable[Singularity]) -> tuple[Singularity, ...]:
+    """Return singularities given from outside as a tuple.
+
+    Parameters
+    ----------
+    singularities : iterable of Singularity
+        Any number.
+
+    Returns
+    -------
+    tuple of Singularity
+        The same, to be gone through more than once.
+
+    Raises
+    ------
+    SingularityError
+        If one is something else.
+
+    Examples
+    --------
+    >>> from solvers.singularities import checked_singularities
+    >>> checked_singularities(iter([]))
+    ()
+    >>> checked_singularities([3, 5])
+    Traceback (most recent call last):
+    solvers.errors.SingularityError: singularities must each be a Singularity, not an int (number 1)
+    """
+    return all_of_kind("singularities", singularities, Singularity, error=SingularityError)
 
 
 def default_corners(surface: TriSurface) -> dict[int, int]:
@@ -119,7 +157,8 @@ def checked_corners(surface: TriSurface, corners: Mapping[int, int]) -> dict[int
     Raises
     ------
     SingularityError
-        If a vertex is not on the boundary, or an index no whole number up to 1, one quad.
+        If it is no mapping, a vertex is not on the boundary, or an index is no whole number up
+        to 1, one quad.
 
     Examples
     --------
@@ -131,6 +170,7 @@ def checked_corners(surface: TriSurface, corners: Mapping[int, int]) -> dict[int
     Traceback (most recent call last):
     solvers.errors.SingularityError: vertex 4 has a corner but is not on the boundary: ...
     """
+    one_of_kind("the corners", corners, Mapping, error=SingularityError)  # type: ignore[type-abstract]
     found: dict[int, int] = {}
     for given, turning in corners.items():
         last = surface.n_vertices - 1
@@ -191,7 +231,7 @@ class IndexBudget:
 
 
 def index_budget(
-    surface: TriSurface, singularities: Sequence[Singularity], corners: Mapping[int, int]
+    surface: TriSurface, singularities: Iterable[Singularity], corners: Mapping[int, int]
 ) -> IndexBudget:
     """Compare the indices of a configuration with 4 chi (paper, section 2; Poincare-Hopf).
 
@@ -199,7 +239,7 @@ def index_budget(
     ----------
     surface : TriSurface
         The surface.
-    singularities : sequence of Singularity
+    singularities : iterable of Singularity
         Interior singularities.
     corners : mapping of int to int
         Index of the corners, by boundary vertex.
@@ -208,6 +248,11 @@ def index_budget(
     -------
     IndexBudget
         The sum, what it must be, and what would mend it.
+
+    Raises
+    ------
+    SingularityError
+        If a singularity or a corner is something else.
 
     Examples
     --------
@@ -219,15 +264,16 @@ def index_budget(
     >>> index_budget(surface, [], default_corners(surface)).message
     'index 4 of 4'
     """
-    total = sum(s.index for s in singularities) + sum(corners.values())
+    placed = checked_singularities(singularities)
+    total = sum(s.index for s in placed) + sum(checked_corners(surface, corners).values())
     required = 4 * surface.euler_characteristic
     missing = required - total
-    remedies = _remedies(missing, singularities) if missing else ()
+    remedies = _remedies(missing, placed) if missing else ()
     return IndexBudget(total, required, remedies)
 
 
 def require_budget(
-    surface: TriSurface, singularities: Sequence[Singularity], corners: Mapping[int, int]
+    surface: TriSurface, singularities: Iterable[Singularity], corners: Mapping[int, int]
 ) -> None:
     """Refuse a configuration that misses the index budget.
 
@@ -235,7 +281,7 @@ def require_budget(
     ----------
     surface : TriSurface
         The surface.
-    singularities : sequence of Singularity
+    singularities : iterable of Singularity
         Interior singularities.
     corners : mapping of int to int
         Index of the corners, by boundary vertex.
@@ -243,7 +289,7 @@ def require_budget(
     Raises
     ------
     SingularityError
-        It names the sum, what is required, and what would mend it.
+        It names the sum, what is required, and what would mend it; or as of `index_budget`.
 
     Examples
     --------

@@ -8,8 +8,9 @@ import numpy as np
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 
+from solvers.number_checks import whole_number
 from solvers.progress import Progress
-from solvers.singularities.budget import Singularity
+from solvers.singularities.budget import Singularity, checked_singularities
 from solvers.surface.points import SurfacePoint
 from solvers.surface.trisurface import TriSurface
 
@@ -36,6 +37,11 @@ def far_points(
     tuple of SurfacePoint
         At vertices; the result of the computation, for `solvers.run`.
 
+    Raises
+    ------
+    CrossviewError
+        If a singularity is something else or of another surface, or the count no whole number.
+
     Examples
     --------
     >>> from solvers import run
@@ -46,8 +52,9 @@ def far_points(
     >>> surface.position(middle).tolist()
     [0.0, 0.0, 0.0]
     """
+    count = whole_number("the number of points", count, 0)
     graph = _edge_graph(surface)
-    used = [surface.nearest_vertex(s.point) for s in singularities]
+    used = [surface.nearest_vertex(s.point) for s in checked_singularities(singularities)]
     sources = np.concatenate([*surface.boundary_loops, np.asarray(used, dtype=np.int64)])
     if sources.size:
         distance = dijkstra(graph, indices=np.unique(sources).astype(np.int64), min_only=True)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from solvers.errors import SingularityError
 from solvers.number_checks import real_number, whole_number
-from solvers.singularities.budget import Singularity
+from solvers.singularities.budget import Singularity, checked_singularities
 from solvers.surface.geodesics import straightest
 from solvers.surface.points import SurfacePoint
 from solvers.surface.trisurface import TriSurface
@@ -23,7 +23,7 @@ DIRECTIONS = 12
 
 def pair_at(
     surface: TriSurface,
-    singularities: Sequence[Singularity],
+    singularities: Iterable[Singularity],
     point: SurfacePoint,
     apart: float | None = None,
 ) -> tuple[Singularity, Singularity]:
@@ -33,7 +33,7 @@ def pair_at(
     ----------
     surface : TriSurface
         The surface.
-    singularities : sequence of Singularity
+    singularities : iterable of Singularity
         What is there; the pair keeps away from them and from the boundary.
     point : SurfacePoint
         The middle of the pair.
@@ -63,12 +63,12 @@ def pair_at(
     >>> round(float(np.linalg.norm(first - second)), 6)
     0.2
     """
-    first, second = _ends(surface, singularities, point, apart)
+    first, second = _ends(surface, checked_singularities(singularities), point, apart)
     return Singularity(first, 3), Singularity(second, 5)
 
 
 def merged(
-    surface: TriSurface, singularities: Sequence[Singularity], one: int, other: int
+    surface: TriSurface, singularities: Iterable[Singularity], one: int, other: int
 ) -> tuple[Singularity, ...]:
     """Return the configuration with two singularities made one, the sum of indices kept.
 
@@ -79,7 +79,7 @@ def merged(
     ----------
     surface : TriSurface
         The surface.
-    singularities : sequence of Singularity
+    singularities : iterable of Singularity
         The configuration.
     one, other : int
         Which two, from 0; the new one takes the place of the earlier in the sequence.
@@ -107,6 +107,7 @@ def merged(
     >>> merged(surface, [Singularity(left, 3), Singularity(right, 5)], 0, 1)
     ()
     """
+    singularities = checked_singularities(singularities)
     last = len(singularities) - 1
     first, second = sorted(
         whole_number("the number of a singularity", i, 0, last) for i in (one, other)
@@ -135,7 +136,7 @@ def merged(
 
 def split(
     surface: TriSurface,
-    singularities: Sequence[Singularity],
+    singularities: Iterable[Singularity],
     which: int,
     apart: float | None = None,
 ) -> tuple[Singularity, ...]:
@@ -147,7 +148,7 @@ def split(
     ----------
     surface : TriSurface
         The surface.
-    singularities : sequence of Singularity
+    singularities : iterable of Singularity
         The configuration.
     which : int
         Which one, from 0.
@@ -173,6 +174,7 @@ def split(
     >>> [s.valence for s in split(surface, [one], 0)]
     [6, 6]
     """
+    singularities = checked_singularities(singularities)
     which = whole_number("the number of a singularity", which, 0, len(singularities) - 1)
     held = singularities[which]
     name = f"#{which + 1}"

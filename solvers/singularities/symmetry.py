@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from solvers.errors import SingularityError
 from solvers.number_checks import real_number, whole_number
-from solvers.singularities.budget import Singularity
+from solvers.singularities.budget import Singularity, checked_singularities
 from solvers.surface.points import SurfacePoint
 from solvers.surface.triangulation import FloatArray
 from solvers.surface.trisurface import TriSurface
@@ -23,7 +23,7 @@ AXES = "xyz"
 
 
 def mirrored(
-    surface: TriSurface, singularities: Sequence[Singularity], axis: int
+    surface: TriSurface, singularities: Iterable[Singularity], axis: int
 ) -> tuple[Singularity, ...]:
     """Return the configuration's mirror image on the same surface.
 
@@ -34,7 +34,7 @@ def mirrored(
     ----------
     surface : TriSurface
         The surface.
-    singularities : sequence of Singularity
+    singularities : iterable of Singularity
         The configuration.
     axis : {0, 1, 2}
         The normal of the plane: x, y or z, or the principal axis nearest to it.
@@ -65,7 +65,7 @@ def mirrored(
 
 
 def rotated(
-    surface: TriSurface, singularities: Sequence[Singularity], axis: int, angle: float
+    surface: TriSurface, singularities: Iterable[Singularity], axis: int, angle: float
 ) -> tuple[Singularity, ...]:
     """Return the configuration turned on the same surface.
 
@@ -76,7 +76,7 @@ def rotated(
     ----------
     surface : TriSurface
         The surface.
-    singularities : sequence of Singularity
+    singularities : iterable of Singularity
         The configuration.
     axis : {0, 1, 2}
         x, y or z, or the principal axis nearest to it.
@@ -114,9 +114,10 @@ def rotated(
 
 
 def _carried(
-    surface: TriSurface, singularities: Sequence[Singularity], matrix: FloatArray, what: str
+    surface: TriSurface, singularities: Iterable[Singularity], matrix: FloatArray, what: str
 ) -> tuple[Singularity, ...]:
-    x = surface.positions([s.point for s in singularities])
+    singularities = checked_singularities(singularities)
+    x = surface.positions(s.point for s in singularities)
     tried = []
     for centre, axes in _frames(surface):
         image = (x - centre) @ axes.T @ matrix.T @ axes + centre

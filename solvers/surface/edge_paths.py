@@ -31,6 +31,7 @@ class EdgePaths:
     """
 
     def __init__(self, surface: TriSurface) -> None:
+        self._surface = surface
         t = surface.triangulation
         h = np.arange(len(t.twin))
         border = np.flatnonzero(t.twin < 0)
@@ -59,8 +60,9 @@ class EdgePaths:
         Raises
         ------
         CrossviewError
-            If no path joins two of them.
+            If no path joins two of them, or there is no vertex of such a number.
         """
+        vertices = self._surface.require_vertices(vertices)
         stops = vertices[np.flatnonzero(np.diff(vertices, prepend=-1))]
         pairs = np.stack([stops[:-1], stops[1:]], axis=1)
         steps = np.zeros(len(pairs), dtype=bool)

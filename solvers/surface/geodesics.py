@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
+import numpy.typing as npt
 
+from solvers.number_checks import real_numbers
 from solvers.surface.points import SurfacePoint
 from solvers.surface.triangulation import FloatArray
 from solvers.surface.trisurface import TriSurface
 
 
-def straightest(surface: TriSurface, start: SurfacePoint, vector: FloatArray) -> SurfacePoint:
+def straightest(surface: TriSurface, start: SurfacePoint, vector: npt.ArrayLike) -> SurfacePoint:
     """Return where a straight walk on the surface ends.
 
     The walk goes straight on through triangles unfolded into one plane; at the boundary it ends.
@@ -20,13 +22,18 @@ def straightest(surface: TriSurface, start: SurfacePoint, vector: FloatArray) ->
         The surface.
     start : SurfacePoint
         Where the walk starts.
-    vector : (2,) float array
+    vector : (2,) array_like
         Its direction and length, in the frame of the start's triangle.
 
     Returns
     -------
     SurfacePoint
         The end, in the triangle that the walk came to.
+
+    Raises
+    ------
+    CrossviewError
+        If the start is a point of another surface, or the vector is not two finite numbers.
 
     Notes
     -----
@@ -46,9 +53,10 @@ def straightest(surface: TriSurface, start: SurfacePoint, vector: FloatArray) ->
     [0.5, -0.5, 0.0]
     """
     surface.require_own([start])
+    vector = real_numbers("the vector", vector, (2,), finite=True)
     t = surface.triangulation
     face, weights = start.face, np.array(start.barycentric)
-    place, left = weights @ t.corner_positions[face], np.array(vector, dtype=np.float64)
+    place, left = weights @ t.corner_positions[face], vector
     entered = -1
     for _ in range(4 * t.n_faces):
         corners = t.corner_positions[face]

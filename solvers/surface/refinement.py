@@ -8,11 +8,12 @@ flipped to Delaunay. The surface's shape and boundary stay as they are.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+import numpy.typing as npt
 
 from solvers.number_checks import whole_number
 from solvers.surface.delaunay import DelaunayTriangulation
@@ -149,9 +150,9 @@ class Refinement:
 
 def refine_at(
     surface: TriSurface,
-    points: Sequence[SurfacePoint],
+    points: Iterable[SurfacePoint],
     levels: int = LEVELS,
-    feature_edges: IntArray | None = None,
+    feature_edges: npt.ArrayLike | None = None,
 ) -> Refinement:
     """Return the surface with vertices at the given points and smaller triangles around them.
 
@@ -159,11 +160,11 @@ def refine_at(
     ----------
     surface : TriSurface
         What to refine.
-    points : sequence of SurfacePoint
+    points : iterable of SurfacePoint
         Where; on vertices, on edges or inside triangles.
     levels : int, optional
         How many times edges are halved near the points; 0 only inserts them.
-    feature_edges : (k,) int array, optional
+    feature_edges : (k,) array_like of int, optional
         Edges of the surface that crosses are to follow. Triangles with more than one of these and
         boundary edges are split, for no cross can follow two sides of one triangle.
 
@@ -171,6 +172,11 @@ def refine_at(
     -------
     Refinement
         With a vertex for each of the points.
+
+    Raises
+    ------
+    CrossviewError
+        If a point or an edge is none of the surface, or the levels are no whole number.
 
     Notes
     -----
@@ -190,9 +196,10 @@ def refine_at(
     (True, 1.0)
     """
     levels = whole_number("levels of refinement", levels, 0)
+    points = surface.require_own(points)
     mesh = _Mesh(surface, points)
-    if feature_edges is not None and len(feature_edges):
-        mesh.split_between(surface, feature_edges)
+    if feature_edges is not None and len(edges := surface.require_edges(feature_edges)):
+        mesh.split_between(surface, edges)
     for _ in range(levels if points else 0):
         mesh.split_in_four(mesh.neighbourhood())
     inserted = np.array([mesh.insert(i) for i in range(len(points))], dtype=np.int64)
@@ -232,7 +239,6 @@ class _Mesh:
     """The arrays while they change, and where the points are among them."""
 
     def __init__(self, surface: TriSurface, points: Sequence[SurfacePoint]) -> None:
-        surface.require_own(points)
         self.vertices = surface.vertices
         self.faces = surface.faces
         self.parent = np.arange(surface.n_faces)

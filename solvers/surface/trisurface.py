@@ -10,7 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from solvers.errors import CrossviewError
-from solvers.number_checks import LARGEST, real_numbers, whole_number
+from solvers.kind_checks import all_of_kind
+from solvers.number_checks import real_numbers, whole_number, whole_numbers
 from solvers.surface.points import SurfacePoint
 from solvers.surface.triangulation import FloatArray, IntArray, IntrinsicTriangulation
 from solvers.surface.validation import HalfedgePairs, as_arrays, problems
@@ -148,8 +149,13 @@ class TriSurface:
         ----------
         loop : (k,) int array
             The vertices in order, none repeated.
+
+        Raises
+        ------
+        CrossviewError
+            If there is no vertex of such a number.
         """
-        p = self.vertices[loop]
+        p = self.vertices[self.require_vertices(loop)]
         return float(np.linalg.norm(np.roll(p, -1, axis=0) - p, axis=1).sum())
 
     @cached_property
@@ -245,13 +251,13 @@ class TriSurface:
         CrossviewError
             If there is no such triangle, or the weights are no such numbers.
         """
-        a, b, c = barycentric
-        made = SurfacePoint(face, (float(a), float(b), float(c)), self.mark)
-        self.require_own([made])
+        weights = real_numbers("the barycentric weights of a point", barycentric, (3,))
+        a, b, c = weights.tolist()
+        (made,) = self.require_own([SurfacePoint(face, (a, b, c), self.mark)])
         return made
 
-    def require_own(self, points: Iterable[SurfacePoint]) -> None:
-        """Refuse points of other surfaces.
+    def require_own(self, points: Iterable[SurfacePoint]) -> tuple[SurfacePoint, ...]:
+        """Return points of this surface as a tuple, and refuse those of others.
 
         Parameters
         ----------
@@ -261,15 +267,47 @@ class TriSurface:
         Raises
         ------
         CrossviewError
-            If one is a point of another surface, or lies in no triangle of this one.
+            If one is no point, is a point of another surface, or lies in no triangle of this one.
         """
-        for point in points:
+        own = all_of_kind("points", points, SurfacePoint)
+        for point in own:
             if point.mark not in (None, self.mark) or point.face >= self.n_faces:
                 raise CrossviewError(
                     "a point of another surface is given",
                     f"triangle {point.face}; this surface has {self.n_faces}",
                     "take it to this one first, with Refinement.lift or closest_point",
                 )
+        return own
+
+    def require_vertices(self, vertices: npt.ArrayLike) -> IntArray:
+        """Return numbers of vertices of this surface as a new array, and refuse others.
+
+        Parameters
+        ----------
+        vertices : (k,) array_like of int
+            Rows of `vertices`.
+
+        Raises
+        ------
+        CrossviewError
+            If there is no vertex of such a number.
+        """
+        return whole_numbers("the numbers of vertices", vertices, (None,), below=self.n_vertices)
+
+    def require_edges(self, edges: npt.ArrayLike) -> IntArray:
+        """Return numbers of edges of this surface as a new array, and refuse others.
+
+        Parameters
+        ----------
+        edges : (k,) array_like of int
+            Rows of `edges`.
+
+        Raises
+        ------
+        CrossviewError
+            If there is no edge of such a number.
+        """
+        return whole_numbers("the numbers of edges", edges, (None,), below=len(self.edges))
 
     def position(self, point: SurfacePoint) -> FloatArray:
         """Return the (3,) coordinates of a surface point.
@@ -287,12 +325,12 @@ class TriSurface:
         self.require_own([point])
         return np.asarray(np.asarray(point.barycentric) @ self.vertices[self.faces[point.face]])
 
-    def positions(self, points: Sequence[SurfacePoint]) -> FloatArray:
+    def positions(self, points: Iterable[SurfacePoint]) -> FloatArray:
         """Return the (k, 3) coordinates of surface points.
 
         Parameters
         ----------
-        points : sequence of SurfacePoint
+        points : iterable of SurfacePoint
             On this surface, any number.
 
         Raises
@@ -300,7 +338,8 @@ class TriSurface:
         CrossviewError
             If one is a point of another surface.
         """
-        return np.array([self.position(point) for point in points]).reshape(-1, 3)
+        own = self.require_own(points)
+        return np.array([self.position(point) for point in own]).reshape(-1, 3)
 
     def point_at_vertex(self, vertex: int) -> SurfacePoint:
         """Return a vertex as a surface point.
@@ -355,9 +394,7 @@ class TriSurface:
         CrossviewError
             Unless they are three finite numbers.
         """
-        x = real_numbers("the position", position, (3,))
-        if not (np.abs(x) < LARGEST).all():
-            raise CrossviewError(f"the position must be finite numbers, not {x.tolist()}")
+        x = real_numbers("the position", position, (3,), finite=True)
         to_centre = np.linalg.norm(self.barycentres - x, axis=1)
         reach = self.triangulation.lengths.max(axis=1)
         candidates = np.flatnonzero(to_centre - reach <= (to_centre + reach).min())

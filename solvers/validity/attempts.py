@@ -19,7 +19,7 @@ from solvers.fields.connection import Condition
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.progress import Progress, relayed
 from solvers.remedies import ANISOTROPIC, Remedy
-from solvers.singularities.budget import Singularity, require_budget
+from solvers.singularities.budget import Singularity, checked_singularities, require_budget
 from solvers.singularities.farthest import far_points
 from solvers.singularities.pairs import pair_at
 from solvers.surface.refinement import LEVELS
@@ -110,7 +110,7 @@ class ValidityError(SingularityError):
 
 def make_valid(
     surface: TriSurface,
-    singularities: Sequence[Singularity],
+    singularities: Iterable[Singularity],
     corners: Mapping[int, int] | None = None,
     levels: int = LEVELS,
 ) -> Generator[Progress, None, Moved]:
@@ -120,7 +120,7 @@ def make_valid(
     ----------
     surface : TriSurface
         The surface.
-    singularities : sequence of Singularity
+    singularities : iterable of Singularity
         A configuration that meets the index budget.
     corners : mapping of int to int, optional
         As for `IsotropicSolver`.
@@ -165,10 +165,10 @@ def make_valid(
     >>> bool(x > 0 and abs(y) < 0.01)  # as far as the mesh is symmetrical
     True
     """
+    start = checked_singularities(singularities)
     solver = IsotropicSolver(surface, corners)
-    require_budget(surface, singularities, solver.corners)
-    attempt = _Attempt(solver, corners, levels)
-    return (yield from attempt.make_valid(tuple(singularities)))
+    require_budget(surface, start, solver.corners)
+    return (yield from _Attempt(solver, corners, levels).make_valid(start))
 
 
 class _Attempt:

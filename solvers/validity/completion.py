@@ -8,7 +8,7 @@ plane, Neumann). What is still missing is spread evenly meanwhile, so that H alw
 
 from __future__ import annotations
 
-from collections.abc import Generator, Sequence
+from collections.abc import Generator, Iterable, Sequence
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -17,7 +17,7 @@ from solvers.algebra.operators import lumped_mass
 from solvers.errors import SingularityError
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.progress import Progress
-from solvers.singularities.budget import Singularity, index_budget
+from solvers.singularities.budget import Singularity, checked_singularities, index_budget
 from solvers.surface.triangulation import QUARTER, BoolArray, FloatArray
 
 SWEEPS = 2
@@ -34,7 +34,7 @@ Chosen, farther than `spacing.CLOSEST`.
 
 
 def missing_singularities(
-    solver: IsotropicSolver, singularities: Sequence[Singularity]
+    solver: IsotropicSolver, singularities: Iterable[Singularity]
 ) -> Generator[Progress, None, tuple[Singularity, ...]]:
     """Find places for the valences 3 or 5 that the index budget lacks.
 
@@ -44,7 +44,7 @@ def missing_singularities(
     ----------
     solver : IsotropicSolver
         On the surface, with its corners.
-    singularities : sequence of Singularity
+    singularities : iterable of Singularity
         What is there.
 
     Returns
@@ -76,6 +76,7 @@ def missing_singularities(
     True
     """
     surface = solver.surface
+    singularities = checked_singularities(singularities)
     missing = index_budget(surface, singularities, solver.corners).missing
     count = abs(missing)
     if count > MOST_PLACED:

@@ -7,13 +7,14 @@ continue over the jumps of Z_i, and vanishes on some of them.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from solvers.fields.holonomy import Holonomy
-from solvers.singularities.budget import Singularity
+from solvers.number_checks import whole_number
+from solvers.singularities.budget import Singularity, checked_singularities
 from solvers.surface.geodesics import straightest
 from solvers.surface.points import SurfacePoint
 from solvers.surface.triangulation import QUARTER, FloatArray, IntArray
@@ -70,10 +71,16 @@ class Guide:
     ----------
     holonomy : Holonomy
         The potentials of the surface.
-    singularities : sequence of Singularity
+    singularities : iterable of Singularity
         The configuration, on the same surface.
     moving : int
         Which of them is to move.
+
+    Raises
+    ------
+    CrossviewError
+        If there is no such singularity, or one is of another surface; its methods if there is no
+        such condition.
 
     Examples
     --------
@@ -97,13 +104,14 @@ class Guide:
     """
 
     def __init__(
-        self, holonomy: Holonomy, singularities: Sequence[Singularity], moving: int
+        self, holonomy: Holonomy, singularities: Iterable[Singularity], moving: int
     ) -> None:
         self._holonomy = holonomy
-        self._singularities = tuple(singularities)
-        self._moving = moving
-        others = [s for i, s in enumerate(singularities) if i != moving]
-        self._index = singularities[moving].index
+        self._singularities = checked_singularities(singularities)
+        last = len(self._singularities) - 1
+        self._moving = whole_number("the number of the singularity that moves", moving, 0, last)
+        others = [s for i, s in enumerate(self._singularities) if i != self._moving]
+        self._index = self._singularities[self._moving].index
         self._others = holonomy.defects(others) / QUARTER
 
     def closing(self, condition: int) -> LevelLines:
@@ -114,7 +122,7 @@ class Guide:
         condition : int
             Its number.
         """
-        return self._lines(condition, 0.0)
+        return self._lines(self._numbered(condition), 0.0)
 
     def keeping(self, condition: int) -> LevelLines:
         """Return where the defect of a condition is what it is now.
@@ -124,6 +132,7 @@ class Guide:
         condition : int
             Its number.
         """
+        condition = self._numbered(condition)
         now = self._holonomy.defects(self._singularities)[condition]
         return self._lines(condition, float(now) / QUARTER)
 
@@ -142,7 +151,8 @@ class Guide:
             Of the number of steps.
         """
         surface = self._holonomy.discretization.surface
-        for _ in range(limit):
+        condition = self._numbered(condition)
+        for _ in range(whole_number("the limit of steps", limit, 0)):
             moved = list(self._singularities)
             moved[self._moving] = replace(moved[self._moving], point=point)
             defect = self._holonomy.defects(moved)[condition]
@@ -154,6 +164,10 @@ class Guide:
                 break
             point = straightest(surface, point, -defect * slope / steepness)
         return point
+
+    def _numbered(self, condition: int) -> int:
+        last = len(self._holonomy.conditions) - 1
+        return whole_number("the number of a holonomy condition", condition, 0, last)
 
     def _lines(self, condition: int, level: float) -> LevelLines:
         corners = self._index * self._holonomy.surface_values[condition]
