@@ -8,11 +8,10 @@ import numpy as np
 
 from crossview.session.commands import AddSingularities, Command, ReplaceSingularities
 from crossview.session.document import Document
-from solvers.fields import IsotropicSolver
+from crossview.workflow import configurations
 from solvers.progress import Progress
 from solvers.singularities import far_points, merged, mirrored, pair_at, rotated, split
 from solvers.surface import SurfacePoint
-from solvers.validity import missing_singularities
 
 
 def add_pair(document: Document, point: SurfacePoint) -> Command:
@@ -54,6 +53,5 @@ def rotate(document: Document, axis: int) -> Command:
 
 def distribute(document: Document) -> Generator[Progress, None, Command]:
     """Add what the index budget lacks, where it evens out the sizes most."""
-    yield Progress("preparing the surface", 0.1)
-    solver = IsotropicSolver(document.surface, document.corners)
-    return AddSingularities((yield from missing_singularities(solver, document.singularities)))
+    completed = yield from configurations.complete(document.problem)
+    return AddSingularities(completed.singularities[len(document.singularities) :])

@@ -11,12 +11,13 @@ from crossview.session.commands import Command, ReplaceSingularities
 from crossview.session.document import Document
 from crossview.session.live import LiveBase, with_directions
 from crossview.session.method_solver import DRAWN_EVERY
+from crossview.workflow import configurations
 from solvers.errors import CrossviewError
-from solvers.fields import NATURAL_ALIGNMENTS, CrossesStep, CrossField, natural_singularities
+from solvers.fields import NATURAL_ALIGNMENTS, CrossesStep, CrossField
 from solvers.progress import Progress, relayed
 from solvers.singularities import Singularity
 from solvers.surface import FloatArray
-from solvers.validity import Moved, make_valid
+from solvers.validity import Moved
 
 T = TypeVar("T")
 
@@ -61,12 +62,8 @@ def move_to_validity(
     Raises
     ------
     SingularityError
-        As `solvers.validity.attempts.make_valid`.
+        As `solvers.validity.make_valid`.
     """
-    problem = document.problem
-    computation = make_valid(
-        document.surface, document.singularities, problem.corners, problem.options.refine
-    )
 
     def show(step: Progress) -> Progress:
         if not isinstance(step, Moved):
@@ -74,7 +71,7 @@ def move_to_validity(
         field = _field(base, step.singularities)
         return Waypoint(step.stage, step.fraction, step.singularities, step.defects, field)
 
-    moved = yield from relayed(computation, show)
+    _, moved = yield from relayed(configurations.make_valid(document.problem), show)
     aimed = f", aimed at {moved.aim}" if moved.aim else ""
     return ReplaceSingularities(moved.singularities, f"make valid{aimed}")
 
@@ -92,10 +89,7 @@ def place_natural(
     method, alignment : str
         As of `natural_singularities`.
     """
-    computation = natural_singularities(
-        document.surface, method, alignment=alignment, features=document.problem.features
-    )
-
+    computation = configurations.natural(document.problem, method, alignment=alignment)
     drawn = -DRAWN_EVERY
 
     def show(step: Progress) -> Progress:
@@ -108,7 +102,7 @@ def place_natural(
 
     found = yield from relayed(_paced(computation), show)
     name = f"natural singularities ({NATURAL_LABELS[method]})"
-    return ReplaceSingularities(found, name, automatic_corners=True)
+    return ReplaceSingularities(found.singularities, name, automatic_corners=True)
 
 
 def _field(base: LiveBase | None, singularities: tuple[Singularity, ...]) -> CrossField | None:

@@ -58,6 +58,7 @@ def complete(problem: Problem) -> Placing:
     CrossviewError
         As `solvers.validity.missing_singularities`.
     """
+    yield Progress("preparing the surface", 0.1)
     solver = IsotropicSolver(problem.surface, problem.corners)
     added = yield from missing_singularities(solver, problem.singularities)
     return replace(problem, singularities=(*problem.singularities, *added))
