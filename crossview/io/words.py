@@ -12,8 +12,8 @@ from solvers.surface import FloatArray, IntArray
 LONGEST = 100
 """Characters of the longest word that is taken: all words get the room of the longest. Chosen."""
 
-SPACES = np.zeros(256, dtype=bool)
-SPACES[list(b" \t\n\r\x0b\x0c")] = True
+SPACES = np.isin(np.arange(256), list(b" \t\n\r\x0b\x0c"))
+"""Which bytes part words, as `bytes.split` has it."""
 
 
 @dataclass(frozen=True, eq=False)
