@@ -12,7 +12,7 @@ import os
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from crossview.cases.gallery import find_case
 from crossview.cases.model import Builtin, Case, CaseError, check_method
@@ -22,8 +22,9 @@ from crossview.workflow import quads as meshes
 from crossview.workflow.pipeline import Pipeline
 from crossview.workflow.problem import Problem
 from crossview.workflow.solution import Solution
-from solvers import Progress, TriSurface, run
+from solvers import CrossviewError, Progress, TriSurface, run
 from solvers.fields import CURVATURE_WEIGHT
+from solvers.kind_checks import one_of_kind
 from solvers.layouts import QuadLayout
 from solvers.quads import QuadMesh
 
@@ -67,7 +68,7 @@ def read_surface(
     >>> crossview.read_surface("rectangle.obj").area
     2.0
     """
-    return read(Case(str(path)), component=component, repair=repair).surface
+    return read(Case(str(_path("surface", path))), component=component, repair=repair).surface
 
 
 def read(
@@ -112,7 +113,7 @@ def read(
     >>> [s.valence for s in problem.singularities], problem.surface.euler_characteristic
     ([3, 3, 3, 3], 1)
     """
-    case = target if isinstance(target, Case) else find_case(os.fspath(target))
+    case = target if isinstance(target, Case) else find_case(str(_path("case", target)))
     return Problem.from_case(
         case.with_choices(method=method, features=features, component=component, repair=repair)
     )
@@ -163,6 +164,7 @@ def natural(
     >>> [s.valence for s in problem.singularities]
     [3, 3, 3, 3, 3, 3, 3, 3]
     """
+    _require("problem", problem, Problem)
     computation = configurations.natural(problem, method, seed, alignment=alignment, weight=weight)
     return run(computation, progress)
 
@@ -194,7 +196,7 @@ def complete(problem: Problem, *, progress: Watch = None) -> Problem:
     >>> [s.valence for s in crossview.complete(crossview.Problem(surface)).singularities]
     [3, 3, 3, 3]
     """
-    return run(configurations.complete(problem), progress)
+    return run(configurations.complete(_require("problem", problem, Problem)), progress)
 
 
 def make_valid(problem: Problem, *, progress: Watch = None) -> Problem:
@@ -227,6 +229,7 @@ def make_valid(problem: Problem, *, progress: Watch = None) -> Problem:
     >>> crossview.solve(crossview.make_valid(Problem(surface, pair))).valid
     True
     """
+    _require("problem", problem, Problem)
     return run(configurations.make_valid(problem), progress)[0]
 
 
@@ -262,6 +265,7 @@ def solve(problem: Problem, method: str | None = None, *, progress: Watch = None
     >>> solution.field.index_sum, solution.valid, solution.verdict.status
     (4, True, 'valid')
     """
+    _require("problem", problem, Problem)
     if method is not None:
         problem = replace(problem, method=check_method(method, "method"))
     return run(Pipeline().solve(problem), progress)
@@ -295,7 +299,7 @@ def layout(solution: Solution, *, progress: Watch = None) -> QuadLayout:
     >>> layout.patches, layout.conforming
     (5, True)
     """
-    return run(layouts.layout(solution), progress)
+    return run(layouts.layout(_require("solution", solution, Solution)), progress)
 
 
 def quads(
@@ -344,6 +348,7 @@ def quads(
     >>> crossview.quads(layout, 300).irregular
     {3: 4}
     """
+    _require("layout", layout, QuadLayout)
     options = meshes.MeshOptions(edge_length, target_quads, collapse, smooth)
     return run(meshes.quads(layout, options), progress)
 
@@ -380,6 +385,8 @@ def write_case(
     >>> [s.valence for s in crossview.read("mine.json").singularities]
     [3, 3, 3, 3]
     """
+    _require("problem", problem, Problem)
+    path = _path("case file", path)
     source = problem.source if surface is None else surface
     if source is None:
         raise CaseError(
@@ -387,7 +394,7 @@ def write_case(
             str(path),
             "give surface=, a file or a built-in",
         )
-    problem.to_case(source, title).save(Path(path))
+    problem.to_case(source, title).save(path)
 
 
 def write_mesh(mesh: QuadMesh, path: str | os.PathLike[str]) -> None:
@@ -413,7 +420,7 @@ def write_mesh(mesh: QuadMesh, path: str | os.PathLike[str]) -> None:
     """
     from crossview.export.meshes import write_mesh as write  # VTK is loaded when it is wanted
 
-    write(mesh, Path(path))
+    write(_require("mesh", mesh, QuadMesh), _path("mesh file", path))
 
 
 def write_solution(
@@ -433,16 +440,17 @@ def write_solution(
     directory : path-like
         Made if it is not there; all files are written, or none.
     layout : QuadLayout, optional
-        Of the solution: also layout.vtp, and separatrices that are exact.
+        Of the solution: separatrices that are exact.
     quads : QuadMesh, optional
-        Of the layout: also the quads.
+        Of the layout: also them, and layout.vtp.
     formats : sequence of str, optional
         Those of `write_mesh` for the quads.
 
     Raises
     ------
     CrossviewError
-        The folder cannot be made or written.
+        The folder cannot be made or written, a format is unknown, or layout or quads are of
+        another solution.
 
     Examples
     --------
@@ -454,7 +462,8 @@ def write_solution(
     """
     from crossview.export.report import write_solution as write  # VTK is loaded when it is wanted
 
-    write(solution, Path(directory), layout, quads, formats)
+    _require_together(solution, layout, quads)
+    write(solution, _path("folder", directory), layout, quads, formats)
 
 
 def report(
@@ -484,6 +493,7 @@ def report(
     """
     from crossview.export.report import report as told  # VTK is loaded when it is wanted
 
+    _require_together(solution, layout, quads)
     return told(solution, layout, quads)
 
 
@@ -531,4 +541,55 @@ def render(
     """
     from crossview.export.figures import render as draw  # VTK is loaded when it is wanted
 
-    return draw(solution, path, layout=layout, quads=quads, **how)
+    _require_together(solution, layout, quads)
+    return draw(solution, _path("figure", path), layout=layout, quads=quads, **how)
+
+
+MADE_BY: dict[type, str] = {
+    Problem: "crossview.read or Problem(surface, singularities) makes one",
+    Solution: "crossview.solve makes one",
+    QuadLayout: "crossview.layout makes one",
+    QuadMesh: "crossview.quads makes one",
+}
+"""How to come by the values that the verbs take."""
+
+Kind = TypeVar("Kind")
+
+
+def _require(name: str, value: object, kind: type[Kind]) -> Kind:
+    """Return what a verb was given, or tell which verb makes what it wants."""
+    return one_of_kind(f"the {name}", value, kind, MADE_BY[kind])
+
+
+def _require_together(
+    solution: Solution, layout: QuadLayout | None, quads: QuadMesh | None
+) -> None:
+    """Refuse a layout or quads that were not made of the solution they are told or drawn with."""
+    _require("solution", solution, Solution)
+    if layout is not None:
+        _require("layout", layout, QuadLayout)
+        if layout.integrated.field.singularities != solution.singularities or (
+            layout.surface.mark != solution.surface.mark
+        ):
+            raise CrossviewError(
+                "the layout is of another solution", advice="give crossview.layout(solution)"
+            )
+    if quads is not None:
+        _require("quads", quads, QuadMesh)
+        if quads.surface.mark != solution.surface.mark:
+            raise CrossviewError(
+                "the quads are of another solution", advice="make them of this one's layout"
+            )
+
+
+def _path(name: str, given: object) -> Path:
+    """Return a path that may name a file or a folder."""
+    if isinstance(given, str | os.PathLike):
+        text = os.fspath(given)
+        if isinstance(text, str) and text.strip() and "\0" not in text:
+            return Path(text)
+        raise CrossviewError(f"the name of the {name} is {text!r}", advice="name a file")
+    raise CrossviewError(
+        f"the name of the {name} must be a text or a Path, not {given!r:.40}",
+        advice="name a file",
+    )

@@ -53,7 +53,7 @@ def one_of_kind(
     """
     if isinstance(value, kind):
         return value
-    raise error(f"{name} must be a {kind.__name__}, not {_kind_of(value)}", advice=advice)
+    raise error(f"{name} must be {_a(kind)}, not {_kind_of(value)}", advice=advice)
 
 
 def all_of_kind(
@@ -95,13 +95,16 @@ def all_of_kind(
     found: list[T] = []
     for number, value in enumerate(given, start=1):
         if not isinstance(value, kind):
-            what = f"{name} must each be a {kind.__name__}, not {_kind_of(value)}"
+            what = f"{name} must each be {_a(kind)}, not {_kind_of(value)}"
             raise error(what, f"number {number}")
         found.append(value)
     return tuple(found)
 
 
 def _kind_of(value: object) -> str:
-    """Return the kind of a value in words."""
-    kind = type(value).__name__
-    return "None" if value is None else f"{'an' if kind[0] in 'aeiouAEIOU' else 'a'} {kind}"
+    return "None" if value is None else _a(type(value))
+
+
+def _a(kind: type) -> str:
+    """Return the name of a kind with its article."""
+    return f"{'an' if kind.__name__[0] in 'aeiouAEIOU' else 'a'} {kind.__name__}"

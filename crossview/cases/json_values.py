@@ -31,8 +31,8 @@ def known_word(word: str, known: Iterable[str], name: str, where: str) -> str:
     CaseError
         It is not; the message names the nearest, or lists those that are.
     """
-    if word not in known:
-        raise CaseError(f'unknown {name} "{word}"', where, nearest(word, known))
+    if not isinstance(word, str) or word not in known:
+        raise CaseError(f'unknown {name} "{word}"', where, nearest(str(word), known))
     return word
 
 

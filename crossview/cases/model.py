@@ -24,6 +24,7 @@ from crossview.cases.records import Record, checked, documented, key
 from crossview.cases.scalars import Text, Word
 from crossview.cases.surfaces import Builtin, SurfaceName
 from crossview.io.staged_files import staged
+from solvers.kind_checks import all_of_kind, one_of_kind
 
 __all__ = [
     "METHODS",
@@ -91,6 +92,23 @@ class Case:
         default_factory=Options,
         metadata=key(Record(Options), "What may be tuned.", always=True),
     )
+
+    def __post_init__(self) -> None:
+        check_method(self.method, "method")
+        if not isinstance(self.surface, str | Builtin):
+            raise CaseError(
+                "the surface of a case must be the name of a file or a Builtin, "
+                f"not {type(self.surface).__name__}",
+                "surface",
+                "solve one made in Python by Problem(surface, singularities)",
+            )
+        one_of_kind("the title of a case", self.title, str, error=CaseError)
+        one_of_kind("the options of a case", self.options, Options, error=CaseError)
+        one_of_kind("the features of a case", self.features, PlacedFeatures, error=CaseError)
+        for name, kind in (("singularities", PlacedSingularity), ("corners", PlacedCorner)):
+            if (given := getattr(self, name)) is not None:
+                placed = all_of_kind(name, given, kind, error=CaseError)
+                object.__setattr__(self, name, placed)
 
     def with_choices(
         self,

@@ -57,6 +57,7 @@ class PlacedSingularity:
 
     def __post_init__(self) -> None:
         check_numbers(self)
+        object.__setattr__(self, "position", _position(self.position))
 
 
 @documented
@@ -74,6 +75,7 @@ class PlacedCorner:
 
     def __post_init__(self) -> None:
         check_numbers(self)
+        object.__setattr__(self, "position", _position(self.position))
 
 
 @documented
@@ -183,6 +185,12 @@ class Options:
         if self.sizes is not None and not isinstance(self.sizes, str):
             sizes = real_numbers("the size map", self.sizes, error=CaseError).tolist()
             object.__setattr__(self, "sizes", _frozen(sizes))
+
+
+def _position(given: Any) -> Position:
+    """Return a position given in Python as that of a case."""
+    x, y, z = real_numbers("position", given, (3,), finite=True, error=CaseError).tolist()
+    return x, y, z
 
 
 def _frozen(rows: Any) -> Any:

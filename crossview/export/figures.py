@@ -26,6 +26,7 @@ from crossview.view.scene_view import Background
 from crossview.workflow.layout import misaligned_boundaries, separatrices
 from crossview.workflow.pipeline import Solution
 from solvers.errors import CrossviewError
+from solvers.kind_checks import all_of_kind, one_of_kind
 from solvers.layouts import QuadLayout
 from solvers.quads import QuadMesh
 
@@ -83,6 +84,8 @@ def render(
         drawing here.
     """
     check(path, layers=layers, size=size, scale=scale, camera=camera)
+    if background not in ("white", "dark"):
+        raise CrossviewError(f'no background "{background}"', "background", "choose white or dark")
     chosen: Mapping[str, LayerSettings] = layers_named(layers) if layers else default_layers()
     cut_graph = solution.cut_graph if chosen["cut"].visible else None
     view = field_view(
@@ -134,8 +137,8 @@ def check(
     """Find mistakes in what is asked of `render` before a long computation; see there."""
     _check_kind(Path(path))
     check_size(size, scale)
-    read_camera(camera)
-    layers_named(layers or ())
+    read_camera(one_of_kind("the camera", camera, str))
+    layers_named(all_of_kind("layers", layers or (), str))
     if "guide" in (layers or ()):
         raise CrossviewError(
             "the guide shows where one singularity may be dragged", "layers", "see it in the window"

@@ -18,6 +18,7 @@ from crossview.scene import Camera, Scene, SceneView, ensure_rendering
 from crossview.scene.camera import rows
 from crossview.view.geometry import FloatArray
 from solvers.errors import CrossviewError
+from solvers.number_checks import real_numbers
 
 _NOMINAL_HEIGHT = 640.0
 """A picture of this height, in pixels, has texts and lines of the window's size. Chosen."""
@@ -136,7 +137,8 @@ def seen(view: SceneView, size: tuple[int, int], camera: str | Camera) -> Seen:
 
 def check_size(size: tuple[int, int], scale: float) -> tuple[int, int]:
     """Return the pixels of a picture, or raise if they are too few or too many to draw."""
-    width, height = (side * scale for side in size)
+    sides = real_numbers("the size", size, (2,), error=FigureError)
+    width, height = (sides * real_numbers("the scale", scale, (), error=FigureError)).tolist()
     if not (min(width, height) >= SHORTEST_SIDE and max(width, height) <= LONGEST_SIDE):
         raise FigureError(
             f"cannot draw {width:g} x {height:g} pixels",

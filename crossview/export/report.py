@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from crossview import __version__
-from crossview.export.meshes import write_mesh
+from crossview.export.meshes import check_kind, write_mesh
 from crossview.export.vtp import (
     cross_lines,
     cut_lines,
@@ -24,6 +24,7 @@ from crossview.io.staged_files import staged
 from crossview.workflow.layout import misaligned_boundaries, separatrices
 from crossview.workflow.pipeline import Solution
 from solvers.errors import counted
+from solvers.kind_checks import all_of_kind
 from solvers.layouts import QuadLayout
 from solvers.quads import QuadMesh
 
@@ -165,8 +166,11 @@ def write_solution(
     Raises
     ------
     CrossviewError
-        `directory` cannot be made or written.
+        A format is unknown, or `directory` cannot be made or written.
     """
+    formats = all_of_kind("formats", formats, str)
+    for suffix in formats:
+        check_kind(Path(f"quads.{suffix}"))
     with staged(directory) as staging:
         write_files(solution, staging, layout, quads, formats)
 

@@ -76,7 +76,7 @@ class MeshOptions:
                 "give a smaller one",
             )
         else:
-            number = surface.area / self.edge_length**2
+            number = surface.area / self.edge_length / self.edge_length  # no square underflows
         if number > MOST_QUADS:
             asked = "" if self.edge_length is None else f"edge length {self.edge_length:g}"
             raise CrossviewError(

@@ -127,9 +127,11 @@ def quantize(
     ([4, 2, 4, 2], 8)
     """
     edge_length = real_number("the edge length", edge_length, above=0)
-    if tmesh.area / edge_length**2 > MOST_QUADS:
+    time_limit = real_number("the time limit", time_limit, 0)
+    number = float(tmesh.area) / edge_length / edge_length  # no square underflows
+    if number > MOST_QUADS:
         raise CrossviewError(
-            f"edges of {edge_length:.3g} make {tmesh.area / edge_length**2:.3g} quads",
+            f"edges of {edge_length:.3g} make {number:.3g} quads",
             f"at most {MOST_QUADS:.3g}",
             "choose longer edges",
         )
