@@ -50,7 +50,7 @@ def numbers(folder: Path) -> str:
                 f"`{name}`",
                 report["method"],
                 f"{max(defects, default=0):.2g}°" if defects else "none",
-                f"{report['energy_final']:.1e}",
+                "" if report["method"] == "isotropic" else f"{report['energy_final']:.1e}",
                 str(report["layout"]["t_junctions"]),
                 report["verdict"],
                 "" if quads is None else f"{quads['quads']} in {quads['patches']} patches",
