@@ -24,7 +24,7 @@ import numpy.typing as npt
 from scipy.sparse import coo_array, csc_array, diags_array
 
 from solvers.algebra.factorization import factorized
-from solvers.errors import CrossviewError
+from solvers.errors import CrossviewError, SingularityError
 from solvers.features.edges import Features, no_features
 from solvers.fields.crossfield import Convergence, CrossField
 from solvers.fields.principal import principal_crosses
@@ -160,6 +160,8 @@ def natural_singularities(
     CrossviewError
         If the method or the alignment is unknown, the weight is negative or not finite, or the
         features are of another surface.
+    SingularityError
+        If singularities are needed and the surface has no vertex inside.
 
     Notes
     -----
@@ -363,7 +365,14 @@ def _as_singularities(
     for corner, index in default_corners(surface).items():
         excess[corner] -= index
     inner = np.flatnonzero(~surface.boundary_vertices)
-    for vertex in np.flatnonzero((excess != 0) & surface.boundary_vertices):
+    misplaced = np.flatnonzero((excess != 0) & surface.boundary_vertices)
+    if len(misplaced) and not len(inner):
+        raise SingularityError(
+            "the surface has no vertex inside where a singularity could go",
+            f"{surface.n_vertices} vertices on the boundary",
+            "give a finer one",
+        )
+    for vertex in misplaced:
         gap = np.linalg.norm(surface.vertices[inner] - surface.vertices[vertex], axis=1)
         excess[inner[np.argmin(gap)]] += excess[vertex]
         excess[vertex] = 0

@@ -56,7 +56,7 @@ def missing_singularities(
     Raises
     ------
     SingularityError
-        More are missing than can be placed.
+        More are missing than can be placed, or than there is room for.
 
     Examples
     --------
@@ -120,12 +120,21 @@ class _Places:
             self._bias = np.log(np.maximum(to_rim, 1e-300)) / 8
             self._open &= (to_rim > self._clear) | (to_rim >= 0.5 * to_rim.max())
         self._shut(surface.positions([s.point for s in singularities]), self._open)
+        taken = [surface.nearest_vertex(s.point) for s in singularities if 1 in s.point.barycentric]
+        self._open[taken] = False
 
     def place(self, number: int) -> None:
         """Choose a vertex for one of them, all the others kept."""
         others = [v for i, v in enumerate(self.chosen) if i != number]
         open_ = self._open.copy()
         self._shut(self._solver.surface.vertices[others], open_)
+        open_[others] = False
+        if not open_.any():
+            raise SingularityError(
+                "there is no room for all the singularities that are missing",
+                f"{self._open.sum()} vertices inside are free",
+                "give a finer surface, or add some of a higher valence first",
+            )
         score = np.where(open_, self._index * self._field(others) + self._bias, -np.inf)
         best = int(np.argmax(score))
         self.chosen[number : number + 1] = [best]

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from solvers.errors import CrossviewError
+from solvers.errors import CrossviewError, SingularityError
 from solvers.features.dihedral import sharp_edges
 from solvers.features.edges import Features
 from solvers.fields.natural import NATURAL_METHODS, CrossesStep, natural_singularities
@@ -134,3 +134,10 @@ def test_a_cone_of_features_gathers_singularities_at_its_corners() -> None:
 def test_wrong_options_are_refused(wrong: dict[str, Any]) -> None:
     with pytest.raises(CrossviewError, match=r"smoothness, curvature|weight"):
         run(natural_singularities(SURFACES["disk"](), **wrong))
+
+
+def test_a_surface_without_vertices_inside_has_no_room_for_singularities() -> None:
+    hexagon = [[np.cos(a), np.sin(a), 0] for a in np.pi / 3 * np.arange(6)]
+    surface = TriSurface(hexagon, [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]])
+    with pytest.raises(SingularityError, match="no vertex inside"):
+        run(natural_singularities(surface))

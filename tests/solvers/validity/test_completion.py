@@ -67,3 +67,21 @@ def test_too_many_are_refused() -> None:
     surface = BUILTIN["genus"](handles=18, subdivisions=1)
     with pytest.raises(SingularityError, match="136 singularities are missing"):
         run(missing_singularities(IsotropicSolver(surface), ()))
+
+
+def test_no_two_are_placed_at_one_vertex() -> None:
+    """A tetrahedron has four vertices, and a cube's eight are just enough."""
+    corners = [[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]
+    tetrahedron = TriSurface(corners, [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]])
+    for start in ([], at_vertices(tetrahedron, [0, 1], [3, 3])):
+        with pytest.raises(SingularityError, match="there is no room for all the singularities"):
+            completed(tetrahedron, start)
+    cube = BUILTIN["cube_sphere"](n=2)
+    assert len(np.unique(completed(cube), axis=0)) == 8
+
+
+def test_none_is_placed_on_the_boundary_for_want_of_vertices_inside() -> None:
+    hexagon = [[np.cos(a), np.sin(a), 0] for a in np.pi / 3 * np.arange(6)]
+    surface = TriSurface(hexagon, [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]])
+    with pytest.raises(SingularityError, match="there is no room"):
+        completed(surface)
