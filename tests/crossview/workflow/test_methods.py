@@ -300,7 +300,10 @@ class TestPipeline:
             solution = run(pipeline.solve(again))
             assert solution.problem is again
             assert solution.field is first[method].field
-        assert first["aligned"].integrated.aligned is first["anisotropic"].integrated.aligned
+        aligned, anisotropic = (first[m].integrated for m in ("aligned", "anisotropic"))
+        assert aligned is not None
+        assert anisotropic is not None
+        assert aligned.aligned is anisotropic.aligned
 
     @pytest.mark.parametrize(
         "change",
