@@ -7,10 +7,10 @@ from lengths, so the same operators serve an embedded surface and its intrinsic 
 
 from __future__ import annotations
 
-from functools import cached_property
-
 import numpy as np
 import numpy.typing as npt
+
+from solvers.frozen import frozen_property, read_only
 
 IntArray = npt.NDArray[np.int64]
 FloatArray = npt.NDArray[np.float64]
@@ -94,42 +94,42 @@ class IntrinsicTriangulation:
         self, n_vertices: int, faces: IntArray, twin: IntArray, lengths: FloatArray
     ) -> None:
         self.n_vertices = n_vertices
-        self.faces = faces
-        self.twin = twin
-        self.lengths = lengths
+        self.faces = read_only(faces)
+        self.twin = read_only(twin)
+        self.lengths = read_only(lengths)
 
     @property
     def n_faces(self) -> int:
         """Number of triangles."""
         return len(self.faces)
 
-    @cached_property
+    @frozen_property
     def tail(self) -> IntArray:
         """(3 m,) vertex each halfedge starts at."""
         return self.faces.reshape(-1)
 
-    @cached_property
+    @frozen_property
     def head(self) -> IntArray:
         """(3 m,) vertex each halfedge ends at."""
         return self.faces[:, [1, 2, 0]].reshape(-1)
 
-    @cached_property
+    @frozen_property
     def edge_halfedges(self) -> IntArray:
         """(ne,) the representing halfedge of each edge, the lower-numbered of the two."""
         h = np.arange(len(self.twin))
         return np.flatnonzero((self.twin < 0) | (h < self.twin))
 
-    @cached_property
+    @frozen_property
     def boundary_halfedges(self) -> IntArray:
         """Halfedges without a twin."""
         return np.flatnonzero(self.twin < 0)
 
-    @cached_property
+    @frozen_property
     def areas(self) -> FloatArray:
         """(m,) triangle areas."""
         return heron(self.lengths)
 
-    @cached_property
+    @frozen_property
     def cotangents(self) -> FloatArray:
         """(m, 3) cotangent of the angle at each corner."""
         s = self.lengths**2
@@ -138,26 +138,26 @@ class IntrinsicTriangulation:
         at_2 = s[:, 2] + s[:, 1] - s[:, 0]
         return np.stack([at_0, at_1, at_2], axis=1) / (4.0 * self.areas)[:, None]
 
-    @cached_property
+    @frozen_property
     def angles(self) -> FloatArray:
         """(m, 3) interior angle at each corner, radians."""
         return np.asarray(np.arctan2(1.0, self.cotangents))
 
-    @cached_property
+    @frozen_property
     def weights(self) -> FloatArray:
         """(3 m,) cotangent weight of each halfedge's edge (half the sum of opposite cotangents)."""
         half = 0.5 * self.cotangents[:, [2, 0, 1]].reshape(-1)
         across = np.where(self.twin >= 0, half[self.twin], 0.0)
         return np.asarray(half + across)
 
-    @cached_property
+    @frozen_property
     def directions(self) -> FloatArray:
         """(3 m,) angle of each halfedge in its face's frame (x along the face's first halfedge)."""
         angles = self.angles
         zero = np.zeros(self.n_faces)
         return np.stack([zero, np.pi - angles[:, 1], np.pi + angles[:, 0]], axis=1).reshape(-1)
 
-    @cached_property
+    @frozen_property
     def transport(self) -> FloatArray:
         """(3 m,) Levi-Civita transport over each halfedge, radians.
 
@@ -167,12 +167,12 @@ class IntrinsicTriangulation:
         turn = self.directions[self.twin] + np.pi - self.directions
         return np.where(self.twin >= 0, wrap(turn, 2 * np.pi), 0.0)
 
-    @cached_property
+    @frozen_property
     def corner_positions(self) -> FloatArray:
         """(m, 3, 2) corners of each face laid out in its own frame."""
         return laid_out(self.lengths)
 
-    @cached_property
+    @frozen_property
     def curvatures(self) -> FloatArray:
         """(n,) integrated curvature of each vertex.
 
@@ -184,7 +184,7 @@ class IntrinsicTriangulation:
         full[self.tail[self.boundary_halfedges]] = np.pi
         return np.asarray(full - total)
 
-    @cached_property
+    @frozen_property
     def hat_gradients(self) -> FloatArray:
         """(m, 3, 2) gradients of the corners' hat functions in each face's frame.
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from functools import cached_property
 from hashlib import blake2b
 
 import numpy as np
 import numpy.typing as npt
 
 from solvers.errors import CrossviewError
+from solvers.frozen import frozen_property
 from solvers.kind_checks import all_of_kind
 from solvers.number_checks import real_numbers, whole_number, whole_numbers
 from solvers.surface.points import SurfacePoint
@@ -75,7 +75,7 @@ class TriSurface:
         """Number of triangles."""
         return len(self.faces)
 
-    @cached_property
+    @frozen_property
     def triangulation(self) -> IntrinsicTriangulation:
         """The surface's own connectivity and edge lengths."""
         corners = self.vertices[self.faces]
@@ -83,13 +83,13 @@ class TriSurface:
         twin = HalfedgePairs(self.n_vertices, self.faces).twin
         return IntrinsicTriangulation(self.n_vertices, self.faces, twin, lengths)
 
-    @cached_property
+    @frozen_property
     def edges(self) -> IntArray:
         """(ne, 2) end vertices of each edge."""
         t = self.triangulation
         return np.stack([t.tail, t.head], axis=1)[t.edge_halfedges]
 
-    @cached_property
+    @frozen_property
     def face_edges(self) -> IntArray:
         """(m, 3) the edge that joins corner i and corner i + 1 of each face."""
         t = self.triangulation
@@ -100,7 +100,7 @@ class TriSurface:
         edge[t.twin[h[inner]]] = np.flatnonzero(inner)
         return edge.reshape(-1, 3)
 
-    @cached_property
+    @frozen_property
     def edge_faces(self) -> IntArray:
         """(ne, 2) the faces left and right of each edge; -1 on the boundary."""
         t = self.triangulation
@@ -117,7 +117,7 @@ class TriSurface:
         """Number of handles."""
         return (2 - self.euler_characteristic - len(self.boundary_loops)) // 2
 
-    @cached_property
+    @frozen_property
     def boundary_loops(self) -> tuple[IntArray, ...]:
         """The vertices of each boundary loop, the surface on the left, the longest loop first."""
         t = self.triangulation
@@ -158,20 +158,20 @@ class TriSurface:
         p = self.vertices[self.require_vertices(loop)]
         return float(np.linalg.norm(np.roll(p, -1, axis=0) - p, axis=1).sum())
 
-    @cached_property
+    @frozen_property
     def boundary_vertices(self) -> npt.NDArray[np.bool_]:
         """(n,) whether each vertex lies on the boundary."""
         mask = np.zeros(self.n_vertices, dtype=bool)
         mask[self.triangulation.tail[self.triangulation.boundary_halfedges]] = True
         return mask
 
-    @cached_property
+    @frozen_property
     def area_vectors(self) -> FloatArray:
         """(m, 3) normal of each face, as long as its area."""
         a, b, c = (self.vertices[self.faces[:, i]] for i in range(3))
         return 0.5 * np.cross(b - a, c - a)
 
-    @cached_property
+    @frozen_property
     def face_areas(self) -> FloatArray:
         """(m,) area of each triangle."""
         return np.asarray(np.linalg.norm(self.area_vectors, axis=1))
@@ -181,12 +181,12 @@ class TriSurface:
         """Total area."""
         return float(self.face_areas.sum())
 
-    @cached_property
+    @frozen_property
     def face_normals(self) -> FloatArray:
         """(m, 3) unit normals."""
         return self.area_vectors / self.face_areas[:, None]
 
-    @cached_property
+    @frozen_property
     def vertex_normals(self) -> FloatArray:
         """(n, 3) area-weighted unit normals."""
         total = np.stack(
@@ -200,14 +200,14 @@ class TriSurface:
         )
         return np.asarray(total / np.maximum(np.linalg.norm(total, axis=1), 1e-300)[:, None])
 
-    @cached_property
+    @frozen_property
     def face_frames(self) -> tuple[FloatArray, FloatArray]:
         """Two (m, 3) unit vectors of each face, along its first edge and 90 degrees further."""
         along = self.vertices[self.faces[:, 1]] - self.vertices[self.faces[:, 0]]
         along /= np.linalg.norm(along, axis=1)[:, None]
         return along, np.cross(self.face_normals, along)
 
-    @cached_property
+    @frozen_property
     def barycentres(self) -> FloatArray:
         """(m, 3) centre of each triangle."""
         return np.asarray(self.vertices[self.faces].mean(axis=1))
@@ -217,18 +217,18 @@ class TriSurface:
         """(n,) integrated Gauss curvature (inside) or geodesic curvature (on the boundary)."""
         return self.triangulation.curvatures
 
-    @cached_property
+    @frozen_property
     def diagonal(self) -> float:
         """Length of the bounding box's diagonal."""
         return float(np.linalg.norm(np.ptp(self.vertices, axis=0)))
 
-    @cached_property
+    @frozen_property
     def triangle_quality(self) -> FloatArray:
         """(m,) 4 sqrt(3) area / sum of squared edges, from 0 (degenerate) to 1 (equilateral)."""
         squares = (self.triangulation.lengths**2).sum(axis=1)
         return np.asarray(4 * np.sqrt(3) * self.face_areas / squares)
 
-    @cached_property
+    @frozen_property
     def mark(self) -> int:
         """What tells the points of this surface from those of others, a digest of its triangles.
 
@@ -375,7 +375,7 @@ class TriSurface:
         self.require_own([point])
         return int(self.faces[point.face, int(np.argmax(point.barycentric))])
 
-    @cached_property
+    @frozen_property
     def _halfedge_from(self) -> IntArray:
         h = np.empty(self.n_vertices, dtype=np.int64)
         h[self.triangulation.tail[::-1]] = np.arange(3 * self.n_faces)[::-1]

@@ -142,3 +142,16 @@ def test_every_problem_is_listed_at_once() -> None:
     told = " ".join(str(problem) for problem in problems(vertices, faces))
     for part in ("degenerate", "duplicate", "of no triangle"):
         assert part in told
+
+
+def test_nobody_writes_to_what_a_surface_is_made_of_or_keeps() -> None:
+    surface = BUILTIN["annulus"](n=12)
+    kept = [surface.boundary_loops[0], *surface.face_frames]
+    for value in (surface, surface.triangulation):
+        names = [name for name in dir(type(value)) if not name.startswith("_")]
+        kept += [a for name in names if isinstance(a := getattr(value, name), np.ndarray)]
+    kept += [surface.triangulation.lengths, surface.triangulation.twin]
+    assert len(kept) > 25
+    for array in kept:
+        with pytest.raises(ValueError, match="read-only"):
+            array[:] = 0
