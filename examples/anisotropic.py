@@ -12,7 +12,7 @@ from crossview import Problem, Singularity, primitives
 surface = primitives.annulus(inner=0.4, n=72)
 
 
-def ring(valence, radius, turned):
+def ring(valence: int, radius: float, turned: float) -> list[Singularity]:
     """Place four of a valence on a circle, turned by some degrees."""
     angles = np.radians(turned + np.arange(0, 360, 90))
     places = radius * np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=1)

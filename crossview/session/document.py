@@ -51,7 +51,7 @@ class Document:
     @property
     def singularities(self) -> tuple[Singularity, ...]:
         """The imposed singularities, on `surface`."""
-        return self.problem.singularities
+        return tuple(self.problem.singularities)
 
     @cached_property
     def budget(self) -> IndexBudget:

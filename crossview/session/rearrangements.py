@@ -54,4 +54,4 @@ def rotate(document: Document, axis: int) -> Command:
 def distribute(document: Document) -> Generator[Progress, None, Command]:
     """Add what the index budget lacks, where it evens out the sizes most."""
     completed = yield from configurations.complete(document.problem)
-    return AddSingularities(completed.singularities[len(document.singularities) :])
+    return AddSingularities(tuple(completed.singularities[len(document.singularities) :]))

@@ -102,7 +102,7 @@ def place_natural(
 
     found = yield from relayed(_paced(computation), show)
     name = f"natural singularities ({NATURAL_LABELS[method]})"
-    return ReplaceSingularities(found.singularities, name, automatic_corners=True)
+    return ReplaceSingularities(tuple(found.singularities), name, automatic_corners=True)
 
 
 def _field(base: LiveBase | None, singularities: tuple[Singularity, ...]) -> CrossField | None:

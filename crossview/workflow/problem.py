@@ -77,7 +77,7 @@ class Problem:
     """
 
     surface: TriSurface
-    singularities: tuple[Singularity, ...] = ()
+    singularities: Sequence[Singularity] = ()
     corners: Mapping[int, int] | None = None
     method: str = METHODS[0]
     options: Options = field(default_factory=Options)

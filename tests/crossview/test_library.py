@@ -91,7 +91,7 @@ def test_a_problem_takes_any_iterable_of_singularities() -> None:
 def test_a_problem_of_something_else_is_refused() -> None:
     surface = crossview.primitives.disk(edge_length=0.2)
     with pytest.raises(crossview.CrossviewError, match="Singularity"):
-        crossview.Problem(surface, [(0.4, 0.4, 0.0)])  # type: ignore[arg-type]
+        crossview.Problem(surface, [(0.4, 0.4, 0.0)])  # type: ignore[list-item]
     with pytest.raises(crossview.CrossviewError, match="newton"):
         crossview.Problem(surface, method="newton")
 
