@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from solvers.errors import CrossviewError
 from solvers.frozen import freeze_arrays
 from solvers.singularities.budget import Singularity
 from solvers.surface.triangulation import FloatArray
@@ -170,7 +171,14 @@ class CrossField:
         -------
         float
             Radians in (-pi/4, pi/4]; of the mean fourth power, weighted by area.
+
+        Raises
+        ------
+        CrossviewError
+            If the other is on another surface.
         """
+        if other.surface is not self.surface and other.surface.mark != self.surface.mark:
+            raise CrossviewError("the other field is on another surface")
         power = self.surface.face_areas @ np.exp(4j * (other.theta - self.theta))
         return float(np.angle(power)) / 4
 

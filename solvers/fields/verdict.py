@@ -10,6 +10,7 @@ import numpy as np
 from solvers.algebra.factorization import RESIDUAL_BOUND
 from solvers.fields.crossfield import CrossField
 from solvers.fields.holonomy import Holonomy
+from solvers.number_checks import real_number, whole_number
 from solvers.remedies import ANISOTROPIC, MAKE_VALID, Remedy, in_words
 from solvers.surface.triangulation import BoolArray, FloatArray
 
@@ -53,6 +54,11 @@ class Limits:
     energy : float, optional
         E is not above.
 
+    Raises
+    ------
+    CrossviewError
+        Unless the angle is a positive number and the energy one from 0.
+
     Examples
     --------
     >>> import numpy as np
@@ -63,6 +69,10 @@ class Limits:
 
     angle: float = float(np.radians(TOLERANCE_DEGREES))
     energy: float = INTEGRABLE
+
+    def __post_init__(self) -> None:
+        real_number("the angle of limits", self.angle, above=0)
+        real_number("the energy of limits", self.energy, 0)
 
     @classmethod
     def on(cls, holonomy: Holonomy, angle: float) -> Limits:
@@ -151,6 +161,11 @@ def judge(
     Verdict
         With the first reason found not to trust the field.
 
+    Raises
+    ------
+    CrossviewError
+        Unless the number and the growth are numbers from 0.
+
     Notes
     -----
     That a torus with one valence 3 and one valence 5 has no quads: Izmestiev et al. 2013.
@@ -169,6 +184,10 @@ def judge(
     >>> judge(solver.solve(pair)).status
     'impossible'
     """
+    if inverted is not None:
+        inverted = whole_number("the number of inverted triangles", inverted, 0)
+    if growth is not None:
+        growth = real_number("the growth", growth, 0)
     indices = sorted(s.index for s in field.singularities)
     surface = field.surface
     if surface.genus == 1 and not surface.boundary_loops and indices == [-1, 1]:

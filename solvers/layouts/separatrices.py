@@ -13,6 +13,7 @@ from solvers.layouts.crossings import crossings
 from solvers.layouts.motorcycles import Stops, stops
 from solvers.layouts.nodes import Node, singular_nodes, starts_at
 from solvers.layouts.tracing import BORDER, LENGTH, Traces, trace
+from solvers.number_checks import real_number
 from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface
 
@@ -155,6 +156,11 @@ def field_separatrices(field: CrossField, longest: float = LONGEST) -> Separatri
     Separatrices
         On the field's surface.
 
+    Raises
+    ------
+    CrossviewError
+        Unless the length is a positive number.
+
     Examples
     --------
     From a corner of 90 degrees no curve leaves but the boundary, from one of 270 two do:
@@ -169,7 +175,7 @@ def field_separatrices(field: CrossField, longest: float = LONGEST) -> Separatri
     """
     chart = Chart.of_field(field)
     nodes = singular_nodes(chart, field)
-    reach = longest * np.sqrt(chart.area)
+    reach = real_number("the length of separatrices", longest, above=0) * np.sqrt(chart.area)
     traces = trace(chart, nodes, starts_at(chart, nodes), chart.edge_length, reach)
     traces = replace(traces, ends=np.where(_along_boundary(traces), LENGTH, traces.ends))
     stopped = stops(traces, crossings(chart, traces.chords))

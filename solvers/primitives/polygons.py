@@ -104,7 +104,7 @@ def fill(loops: Sequence[FloatArray], interior: FloatArray) -> tuple[FloatArray,
 def _ring(corners: npt.ArrayLike, sign: float) -> FloatArray:
     try:
         ring = np.array(corners, dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         ring = np.empty(0)
     if ring.ndim != 2 or ring.shape[0] < 3 or ring.shape[1] != 2 or not np.isfinite(ring).all():
         raise SurfaceError("a polygon needs three or more corners [x, y] with finite numbers")

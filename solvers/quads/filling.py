@@ -8,12 +8,15 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from solvers.errors import CrossviewError
 from solvers.layouts.arrangement import Arrangement
 from solvers.layouts.charts import AXES, ComplexArray
 from solvers.layouts.crossings import ends_of
 from solvers.layouts.layout import QuadLayout
 from solvers.layouts.patches import grid_quads
 from solvers.layouts.straight import barycentric_in, walk
+from solvers.layouts.tmesh import TMesh
+from solvers.number_checks import whole_numbers
 from solvers.quads.quadmesh import QuadMesh
 from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
 
@@ -34,6 +37,11 @@ def fill(layout: QuadLayout, counts: IntArray) -> QuadMesh:
     QuadMesh
         Vertices as the seamless map has them, lying in the triangles of the layout's surface.
 
+    Raises
+    ------
+    CrossviewError
+        If there is not one whole number from 0 for each arc, or opposite sides differ.
+
     Notes
     -----
     Inside a rectangle places are blended between its four sides (Coons 1967).
@@ -51,7 +59,7 @@ def fill(layout: QuadLayout, counts: IntArray) -> QuadMesh:
     >>> mesh.n_quads, round(float(mesh.scaled_jacobian.min()), 9)
     (9, 1.0)
     """
-    points = _Points(layout.arrangement, np.asarray(counts, dtype=np.int64))
+    points = _Points(layout.arrangement, _checked(layout.tmesh, counts))
     grids = [_grid(points, r) for r in range(layout.patches)]
     face, weights = points.located()
     n = layout.tmesh.n_nodes
@@ -72,6 +80,22 @@ def fill(layout: QuadLayout, counts: IntArray) -> QuadMesh:
         fixed[kept],
         loop[kept],
     )
+
+
+def _checked(tmesh: TMesh, counts: IntArray) -> IntArray:
+    """Return counts that grids can be made of."""
+    found = whole_numbers("the counts of arcs", counts, (tmesh.n_arcs,))
+    if (found < 0).any():
+        raise CrossviewError(f"the counts of arcs must be at least 0, not {found.min()}")
+    sides = tmesh.side_totals(found.astype(np.float64))
+    unequal = np.flatnonzero((sides[:, :2] != sides[:, 2:]).any(axis=1))
+    if len(unequal):
+        raise CrossviewError(
+            "opposite sides of a rectangle have different counts",
+            f"rectangle {unequal[0]}",
+            "take counts that quantize finds",
+        )
+    return found
 
 
 class _Points:

@@ -6,6 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
+from solvers.errors import CrossviewError
 from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface
 
@@ -22,10 +23,16 @@ class Rail:
         Where.
     chain : (k,) int array
         Its vertices in order; the first again at the end where the chain closes up.
+
+    Raises
+    ------
+    CrossviewError
+        If there are no such vertices, or no edges between them.
     """
 
     def __init__(self, surface: TriSurface, chain: IntArray) -> None:
-        self.closed = bool(chain[0] == chain[-1])
+        chain = surface.require_vertices(chain)
+        self.closed = len(chain) > 1 and bool(chain[0] == chain[-1])
         self._chain = chain
         self._points = surface.vertices[chain]
         self._at = np.concatenate(
@@ -40,6 +47,8 @@ class Rail:
         other = order[np.minimum(np.searchsorted(key, behind, sorter=order), len(key) - 1)]
         # An edge of the boundary may be run against its only halfedge.
         self._backwards: BoolArray = key[h] != ahead
+        if len(chain) < 2 or (self._backwards & (key[other] != behind)).any():
+            raise CrossviewError("a curve must be vertices joined by edges of the surface")
         self._halfedge: IntArray = np.where(self._backwards, other, h)
 
     @property

@@ -14,6 +14,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from solvers.kind_checks import one_of_kind
 from solvers.number_checks import whole_number
 from solvers.quads.quadmesh import QuadMesh, normals_at
 from solvers.quads.rails import Rail, boundary_rails
@@ -76,6 +77,11 @@ def smooth(
     QuadMesh
         The same quads, other places.
 
+    Raises
+    ------
+    CrossviewError
+        If a curve is no chain of vertices joined by edges.
+
     Notes
     -----
     The local step is shape matching (Bouaziz et al. 2012, "Shape-Up").
@@ -103,6 +109,7 @@ def smooth(
     rounds = whole_number("rounds of smoothing", rounds, 0)
     rails = boundary_rails(mesh.surface)
     rail, held = mesh.boundary_loop.copy(), mesh.fixed.copy()
+    one_of_kind("the curves", curves, Sequence, "give a list")  # type: ignore[type-abstract]
     for curve in curves:
         rails.append(Rail(mesh.surface, curve))
         on = _run_along(mesh, rails[-1])

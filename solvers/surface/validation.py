@@ -126,9 +126,10 @@ def as_arrays(vertices: npt.ArrayLike, faces: npt.ArrayLike) -> tuple[FloatArray
     SurfaceError
         If they are no numbers, or corners no whole ones; what else they are is not asked.
     """
+    # a single number has no rows to look at
     return (
-        real_numbers("the coordinates of vertices", vertices, error=SurfaceError),
-        whole_numbers("the corners of triangles", faces, error=SurfaceError),
+        np.atleast_1d(real_numbers("the coordinates of vertices", vertices, error=SurfaceError)),
+        np.atleast_1d(whole_numbers("the corners of triangles", faces, error=SurfaceError)),
     )
 
 
