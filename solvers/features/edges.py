@@ -15,7 +15,7 @@ from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import connected_components, depth_first_order
 
 from solvers.errors import CrossviewError, listed
-from solvers.frozen import freeze_arrays
+from solvers.frozen import freeze_arrays, frozen_property
 from solvers.kind_checks import one_of_kind
 from solvers.singularities.budget import TIE
 from solvers.surface.refinement import Refinement
@@ -151,17 +151,17 @@ class Features:
         """(k,) one halfedge of each."""
         return self.surface.triangulation.edge_halfedges[self.edges]
 
-    @cached_property
+    @frozen_property
     def ends(self) -> IntArray:
         """(k, 2) end vertices of each."""
         return self.surface.edges[self.edges]
 
-    @cached_property
+    @frozen_property
     def degrees(self) -> IntArray:
         """(n,) number of feature edges at each vertex."""
         return np.bincount(self.ends.reshape(-1), minlength=self.surface.n_vertices)
 
-    @cached_property
+    @frozen_property
     def sectors(self) -> tuple[IntArray, FloatArray, IntArray]:
         """What features and boundary cut the neighbourhoods of vertices into.
 
@@ -182,7 +182,7 @@ class Features:
         vertex[sector] = t.tail
         return sector, angle, vertex
 
-    @cached_property
+    @frozen_property
     def turns(self) -> FloatArray:
         """(n,) by how much the features turn at vertices where two of them meet, else 0; radians.
 
@@ -197,7 +197,7 @@ class Features:
         turn[vertex[one]] = np.abs(angle[one] - angle[other]) / 2
         return turn
 
-    @cached_property
+    @frozen_property
     def corners(self) -> IntArray:
         """Vertices where curves end, at ends, junctions, sharp turns and the boundary."""
         passed = (self.degrees == 2) & ~self.surface.boundary_vertices & (self.turns < SHARP_TURN)

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from solvers.errors import CrossviewError
-from solvers.frozen import freeze_arrays
+from solvers.frozen import freeze_arrays, frozen_property
 from solvers.singularities.budget import Singularity
 from solvers.surface.triangulation import FloatArray
 from solvers.surface.trisurface import TriSurface
@@ -109,17 +109,17 @@ class CrossField:
     def __post_init__(self) -> None:
         freeze_arrays(self)
 
-    @cached_property
+    @frozen_property
     def H1(self) -> FloatArray:
         """(m, 3) logarithm of the size along u at the corners of each triangle."""
         return self.H[self.surface.faces] - self.half_log_aspect
 
-    @cached_property
+    @frozen_property
     def H2(self) -> FloatArray:
         """(m, 3) logarithm of the size along v at the corners of each triangle."""
         return self.H[self.surface.faces] + self.half_log_aspect
 
-    @cached_property
+    @frozen_property
     def log_aspect(self) -> FloatArray:
         """(m,) |H2 - H1| at each barycentre."""
         return np.asarray(np.abs(2 * self.half_log_aspect.mean(axis=1)))
@@ -147,13 +147,13 @@ class CrossField:
         """The integrability error E (paper, equation intError)."""
         return float(np.sqrt(self.surface.face_areas @ self.error_density))
 
-    @cached_property
+    @frozen_property
     def u(self) -> FloatArray:
         """(m, 3) unit vector of the cross's first branch at each barycentre."""
         along, across = self.surface.face_frames
         return np.cos(self.theta)[:, None] * along + np.sin(self.theta)[:, None] * across
 
-    @cached_property
+    @frozen_property
     def v(self) -> FloatArray:
         """(m, 3) unit vector of the second branch, 90 degrees from the first."""
         along, across = self.surface.face_frames

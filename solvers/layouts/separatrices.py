@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from solvers.fields.crossfield import CrossField
+from solvers.frozen import freeze_arrays
 from solvers.layouts.charts import AXES, Chart
 from solvers.layouts.crossings import crossings
 from solvers.layouts.motorcycles import Stops, stops
@@ -66,6 +67,9 @@ class Separatrices:
     offsets: IntArray
     valences: IntArray
     ends: IntArray
+
+    def __post_init__(self) -> None:
+        freeze_arrays(self)
 
     @property
     def t_junctions(self) -> FloatArray:
@@ -185,11 +189,11 @@ def field_separatrices(field: CrossField, longest: float = LONGEST) -> Separatri
     place[: len(field.singularities)] = field.surface.positions(
         [s.point for s in field.singularities]
     )
-    kept = stopped.kept
-    curves.points[curves.offsets[:-1]] = place[traces.starts.node[kept]]
+    kept, points = stopped.kept, curves.points.copy()
+    points[curves.offsets[:-1]] = place[traces.starts.node[kept]]
     met = curves.ends == SINGULARITY
-    curves.points[curves.offsets[1:][met] - 1] = place[traces.end_node[kept][met]]
-    return curves
+    points[curves.offsets[1:][met] - 1] = place[traces.end_node[kept][met]]
+    return replace(curves, points=points)
 
 
 def _along_boundary(traces: Traces) -> BoolArray:

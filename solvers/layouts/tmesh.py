@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from solvers.frozen import freeze_arrays
 from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
 
 
@@ -64,6 +65,9 @@ class TMesh:
     node_on_boundary: BoolArray
     side_offsets: IntArray
     side_halfarcs: IntArray
+
+    def __post_init__(self) -> None:
+        freeze_arrays(self)
 
     @property
     def n_arcs(self) -> int:

@@ -14,6 +14,7 @@ from scipy.sparse import coo_array, csc_array, diags_array, vstack
 
 from solvers.algebra.factorization import Analysis
 from solvers.fields.integrability import Integrability
+from solvers.frozen import freeze_arrays
 from solvers.surface.triangulation import QUARTER, FloatArray, IntArray
 
 PASSES, ROUNDING = 3, 1e-14
@@ -48,6 +49,9 @@ class SeamlessMap:
 
     images: FloatArray
     distance: float
+
+    def __post_init__(self) -> None:
+        freeze_arrays(self)
 
     @property
     def inverted(self) -> IntArray:

@@ -15,6 +15,7 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
+from solvers.frozen import freeze_arrays
 from solvers.number_checks import whole_number
 from solvers.surface.delaunay import DelaunayTriangulation
 from solvers.surface.points import SurfacePoint
@@ -73,6 +74,9 @@ class Refinement:
     vertices: IntArray
     parent_face: IntArray
     points: tuple[SurfacePoint, ...] = ()
+
+    def __post_init__(self) -> None:
+        freeze_arrays(self)
 
     @classmethod
     def none(cls, surface: TriSurface) -> Refinement:

@@ -76,7 +76,12 @@ def test_stages_are_frozen(cube: Solution) -> None:
     for value, name in ((cube, "field"), (made, "arrangement")):
         with pytest.raises(dataclasses.FrozenInstanceError):
             setattr(value, name, None)
-    for array in (cube.field.theta, cube.field.H, cube.holonomy_defects):
+    field = cube.field
+    for array in (
+        *(field.theta, field.H, field.H1, field.u, field.log_aspect, cube.holonomy_defects),
+        *(cube.refinement.parent_face, cube.features.degrees, cube.separatrices.points),
+        *(made.separatrices.points, made.tmesh.lengths),
+    ):
         before = array.copy()
         with pytest.raises(ValueError, match="read-only"):
             array += 1
