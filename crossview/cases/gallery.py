@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from importlib.resources import files
 from pathlib import Path
 
@@ -46,7 +47,7 @@ def find_case(target: str) -> Case:
     path = Path(target)
     if path.suffix.lower() == ".json":
         return Case.load(path)
-    if path.exists():
+    if os.path.exists(path):  # also of a name too long for one
         return Case(surface=target)
     if path.name != target or path.suffix:
         raise CaseError("no such file", target, "check its name and folder")

@@ -23,7 +23,7 @@ from crossview.cases.parts import (
 from crossview.cases.records import Record, checked, documented, key
 from crossview.cases.scalars import Text, Word
 from crossview.cases.surfaces import Builtin, SurfaceName
-from crossview.io.staged_files import staged
+from crossview.io.staged_files import staged, unwritable
 from solvers.kind_checks import all_of_kind, one_of_kind
 
 __all__ = [
@@ -235,4 +235,7 @@ class Case:
         path = Path(path)
         text = json.dumps(self.to_json(path.parent), indent=2, ensure_ascii=False) + "\n"
         with staged(path.parent) as staging:
-            (staging / path.name).write_text(text, encoding="utf-8")
+            try:
+                (staging / path.name).write_text(text, encoding="utf-8")
+            except OSError as error:
+                raise unwritable(path, error) from error

@@ -52,7 +52,7 @@ class SurfaceName(Shape):
                 raise entry.error('the key "builtin" is missing')
             return _builtin(members.pop("builtin"), members)
         path = base / Text().read(entry, base)
-        if entry.value in BUILTIN and not path.exists():
+        if entry.value in BUILTIN and not os.path.exists(path):
             return Builtin(entry.value)
         return os.path.normpath(path)
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Sequence
-from pathlib import Path
 
 from cyclopts import App, CycloptsError
 
@@ -79,6 +79,6 @@ def _usage_error(tokens: list[str], error: CycloptsError) -> CrossviewError:
     command = tokens[0]
     if command in known:
         return CrossviewError(what, "", f"see crossview {command} --help")
-    if not command.startswith("-") and not Path(command).exists():
+    if not command.startswith("-") and not os.path.exists(command):
         return CrossviewError(f'unknown command "{command}"', "", nearest(command, known))
     return CrossviewError(what, "", "see crossview --help")

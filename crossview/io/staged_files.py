@@ -34,13 +34,13 @@ def staged(directory: str | Path) -> Iterator[Path]:
         base = next(p for p in (target, *target.absolute().parents) if p.exists())
         staging = Path(tempfile.mkdtemp(prefix=".crossview-", dir=base))
     except OSError as error:
-        raise _unwritable(target, error) from error
+        raise unwritable(target, error) from error
     try:
         yield staging
         try:
             _move(staging, target)
         except OSError as error:
-            raise _unwritable(target, error) from error
+            raise unwritable(target, error) from error
     finally:
         shutil.rmtree(staging, ignore_errors=True)
 
@@ -57,5 +57,6 @@ def _move(staging: Path, target: Path) -> None:
         path.replace(place)
 
 
-def _unwritable(target: Path, error: OSError) -> CrossviewError:
+def unwritable(target: Path, error: OSError) -> CrossviewError:
+    """Return the error that says why nothing is written there."""
     return CrossviewError(f"cannot write, {error.strerror}", str(target), "choose another place")
