@@ -22,12 +22,6 @@ from solvers.surface.refinement import Refinement
 from solvers.surface.triangulation import FloatArray, IntArray, next_halfedge, previous_halfedge
 from solvers.surface.trisurface import TriSurface, barycentric
 
-ON_SIDE = 1e-7
-"""Weight of a corner of a triangle, from 0 to 1, below which a place lies on the side opposite.
-
-Chosen, well above rounding and below `refinement.SNAP`.
-"""
-
 NARROW = np.radians(30)
 """Angle between two features that leaves no room for a quad, radians.
 
@@ -220,23 +214,6 @@ class Features:
         for i, curve in enumerate(self.curves):
             number[curve.members] = i
         return number
-
-    def curves_at(self, faces: IntArray, barycentric: FloatArray) -> IntArray:
-        """Return the curve that places in triangles lie on, or -1.
-
-        Parameters
-        ----------
-        faces : (n,) int array
-            The triangles.
-        barycentric : (n, 3) float array
-            Weights of their corners.
-        """
-        curve = np.full(len(self.surface.edges), -1, dtype=np.int64)
-        curve[self.edges] = self.curve_of
-        # A side is opposite the corner before it.
-        on_side = barycentric[:, [2, 0, 1]] < ON_SIDE
-        found = np.where(on_side, curve[self.surface.face_edges[faces]], -1)
-        return np.asarray(found.max(axis=1))
 
     def _links(self) -> tuple[IntArray, IntArray]:
         """Return pairs (l, 2) of edges that follow each other, and the vertices between them."""
