@@ -106,8 +106,10 @@ def joined_field(prepared: PreparedSurface, turns: Sequence[int] | None = None) 
     >>> layout.patches, layout.tmesh.n_arcs
     (6, 12)
     """
-    solver = in_joining_gauge(prepared.operators.own, prepared.singularities)
-    return aligned_field(prepared, turns, like=solver.solve(prepared.singularities))
+    own = prepared.operators.own
+    turned = in_joining_gauge(own, prepared.singularities)
+    like = None if turned is own else turned.solve(prepared.singularities)
+    return aligned_field(prepared, turns, like=like)
 
 
 def joining_gauge(field: CrossField) -> float:
