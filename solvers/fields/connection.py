@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 
 from solvers.features.edges import Features, no_features
-from solvers.surface.delaunay import DelaunayTriangulation, Located
+from solvers.surface.delaunay import intrinsic_delaunay
 from solvers.surface.homology import DualTree, handle_loops
 from solvers.surface.points import SurfacePoint
 from solvers.surface.triangulation import (
@@ -21,6 +21,7 @@ from solvers.surface.triangulation import (
     wrap,
 )
 from solvers.surface.trisurface import TriSurface
+from solvers.surface.working import Located, WorkingTriangulation
 
 CLEARANCE = 1e-6
 """Least barycentric weight of a point in a triangle, for no part of a split to be without area.
@@ -88,8 +89,8 @@ class Discretization:
         Handle loops of the surface.
     conditions : tuple of Condition
         The holonomy conditions, handles first; halfedges are the triangulation's.
-    delaunay : DelaunayTriangulation
-        The flips from the surface to `triangulation`.
+    working : WorkingTriangulation
+        The moves from the surface to `triangulation`.
     chain : (2 g, 3 m) int array
         Halfedges of the handle loops on the triangulation, as in `HandleLoops`.
     tree : DualTree
@@ -125,11 +126,11 @@ class Discretization:
         marked = np.array([*starts, *self.handles.closing], dtype=np.int64)
         numbered = [_numbered(h, own) for h in (self.features.halfedges, marked)]
         chain = np.concatenate([self.handles.chain, *numbered])
-        fixed = chain[:-1] != 0 if delaunay else np.ones((1, len(own.twin)), dtype=bool)
-        self.delaunay = DelaunayTriangulation(own, fixed, chain)
-        self.triangulation: IntrinsicTriangulation = self.delaunay.triangulation
-        self.chain = self.delaunay.chain[:-2]
-        self.feature_halfedges, places = (_places(row) for row in self.delaunay.chain[-2:])
+        working = intrinsic_delaunay if delaunay else WorkingTriangulation.of
+        self.working = working(own, chain)
+        self.triangulation: IntrinsicTriangulation = self.working.triangulation
+        self.chain = self.working.marks[:-2]
+        self.feature_halfedges, places = (_places(row) for row in self.working.marks[-2:])
         moved = places.tolist()
         self.reference = moved[0] if starts else -1
         self.conditions = tuple(self._conditions(moved[: len(starts)], moved[len(starts) :]))
@@ -192,7 +193,7 @@ class Discretization:
         faces = np.array([p.face for p in points], dtype=np.int64)
         weights = np.array([p.barycentric for p in points]).reshape(-1, 3)
         own = self.surface.triangulation.corner_positions[faces]
-        return self.delaunay.locate(faces, np.einsum("ki,kij->kj", weights, own))
+        return self.working.locate(faces, np.einsum("ki,kij->kj", weights, own))
 
     def place(self, points: Sequence[SurfacePoint]) -> tuple[IntArray, FloatArray]:
         """Return where points of the surface lie on the triangulation.
@@ -224,7 +225,7 @@ class Discretization:
     def barycentres(self) -> Located:
         """Where the barycentre and frame of each triangle of the surface lie."""
         centres = self.surface.triangulation.corner_positions.mean(axis=1)
-        return self.delaunay.locate(np.arange(self.surface.n_faces), centres)
+        return self.working.locate(np.arange(self.surface.n_faces), centres)
 
     def walk(self, offsets: FloatArray) -> FloatArray:
         """Carry the cross from the reference to every triangle.

@@ -101,7 +101,7 @@ class Holonomy:
         triangles whose edges the operator has flipped they are linear only in between vertices.
         """
         d = self.discretization
-        if not d.delaunay.n_flips:
+        if d.working.unchanged:
             return self._corner_values
         nodal = np.empty((len(self.conditions), d.surface.n_vertices))
         nodal[:, d.triangulation.faces] = self._corner_values
@@ -127,7 +127,7 @@ class Holonomy:
         """
         d = self.discretization
         own = d.surface.triangulation.corner_positions[faces]
-        located = d.delaunay.locate(faces, np.einsum("ki,kid->kd", weights, own))
+        located = d.working.locate(faces, np.einsum("ki,kid->kd", weights, own))
         corners = d.triangulation.corner_positions[located.face]
         third = located.place[:, 1] / corners[:, 2, 1]
         second = (located.place[:, 0] - third * corners[:, 2, 0]) / corners[:, 1, 0]

@@ -260,7 +260,7 @@ class IsotropicSolver:
     def _on_surface(self, h: FloatArray, theta: FloatArray) -> FloatArray:
         """Return theta at the surface's own barycentres, in its own frames."""
         d = self.discretization
-        if d.delaunay.n_flips == 0:
+        if d.working.unchanged:
             return theta
         t, at = d.triangulation, d.barycentres
         gradient = t.gradients(h[t.faces])[at.face]

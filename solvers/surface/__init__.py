@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from solvers.surface.cutting import cut_graph
-from solvers.surface.delaunay import DelaunayTriangulation, Located
+from solvers.surface.delaunay import intrinsic_delaunay
 from solvers.surface.edge_paths import EdgePaths
 from solvers.surface.geodesics import straightest
 from solvers.surface.homology import HandleLoops, handle_loops
@@ -18,25 +18,29 @@ from solvers.surface.triangulation import (
 )
 from solvers.surface.trisurface import TriSurface, barycentric
 from solvers.surface.validation import array_problems, problems
+from solvers.surface.working import Edit, Located, Segments, WorkingTriangulation
 
 __all__ = [
     "LEVELS",
     "QUARTER",
     "BoolArray",
-    "DelaunayTriangulation",
     "EdgePaths",
+    "Edit",
     "FloatArray",
     "HandleLoops",
     "IntArray",
     "IntrinsicTriangulation",
     "Located",
     "Refinement",
+    "Segments",
     "SurfacePoint",
     "TriSurface",
+    "WorkingTriangulation",
     "array_problems",
     "barycentric",
     "cut_graph",
     "handle_loops",
+    "intrinsic_delaunay",
     "problems",
     "refine_at",
     "refine_everywhere",

@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from solvers.frozen import freeze_arrays
 from solvers.number_checks import whole_number
-from solvers.surface.delaunay import DelaunayTriangulation
+from solvers.surface.delaunay import intrinsic_delaunay
 from solvers.surface.points import SurfacePoint
 from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface, barycentric, closest_barycentric
@@ -368,7 +368,7 @@ class _Mesh:
         owner = self.parent[inside]
         h = np.arange(len(patch.twin))
         border = (patch.twin < 0) | (owner[patch.twin // 3] != owner[h // 3])
-        flipped = DelaunayTriangulation(patch, border[None]).triangulation
+        flipped = intrinsic_delaunay(patch, border[None].astype(np.int64)).triangulation
         self.faces = self.faces.copy()
         self.faces[inside] = flipped.faces
 

@@ -172,7 +172,7 @@ class Guide:
     def _lines(self, condition: int, level: float) -> LevelLines:
         corners = self._index * self._holonomy.surface_values[condition]
         lines = _integer_lines(corners + (self._others[condition] - level))
-        if self._holonomy.discretization.delaunay.n_flips:
+        if not self._holonomy.discretization.working.unchanged:
             lines = self._exact(lines, condition, level)
         return lines.made()
 

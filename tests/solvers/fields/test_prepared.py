@@ -34,7 +34,7 @@ def test_fields_on_any_triangles_with_singularities_anywhere_close_and_are_align
 ) -> None:
     surface = annulus(inner=0.4, n=96) if stretch == 1 else stretched(stretch)
     configuration = pair(surface, stretch)
-    obtuse = IsotropicSolver(surface).discretization.delaunay.n_flips
+    obtuse = IsotropicSolver(surface).discretization.working.n_flips
     assert (obtuse > 100) == (stretch > 1)
     aligned = aligned_field(prepare(surface, configuration, refine=refine))
     assert np.degrees(np.abs(aligned.isotropic.defects).max()) > 30

@@ -5,15 +5,15 @@ import pytest
 
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.primitives import BUILTIN
-from solvers.surface.delaunay import DelaunayTriangulation
+from solvers.surface.delaunay import intrinsic_delaunay
 from solvers.surface.triangulation import wrap
 from solvers.surface.trisurface import TriSurface
+from solvers.surface.working import WorkingTriangulation
 from tests.solvers.suite import SURFACES, random_configuration
 
 
-def flipped(surface: TriSurface) -> DelaunayTriangulation:
-    nothing = np.zeros((1, 3 * surface.n_faces), dtype=bool)
-    return DelaunayTriangulation(surface.triangulation, nothing)
+def flipped(surface: TriSurface) -> WorkingTriangulation:
+    return intrinsic_delaunay(surface.triangulation)
 
 
 @pytest.mark.parametrize("name", SURFACES)
@@ -64,14 +64,12 @@ def test_fixed_edges_stay_and_carry_their_numbers() -> None:
     own = surface.triangulation
     edges = own.edge_halfedges[own.twin[own.edge_halfedges] >= 0]
     kept = edges[own.weights[edges] < 0][::3]
-    fixed = np.zeros((1, len(own.twin)), dtype=bool)
-    fixed[0, kept] = fixed[0, own.twin[kept]] = True
     chain = np.zeros((1, len(own.twin)), dtype=np.int64)
     chain[0, kept] = np.arange(1, len(kept) + 1)
-    delaunay = DelaunayTriangulation(own, fixed, chain)
+    delaunay = intrinsic_delaunay(own, chain)
     t = delaunay.triangulation
-    there = np.flatnonzero(delaunay.chain[0])
-    number = delaunay.chain[0, there] - 1
+    there = np.flatnonzero(delaunay.marks[0])
+    number = delaunay.marks[0, there] - 1
     assert sorted(number.tolist()) == list(range(len(kept)))
     assert (t.tail[there] == own.tail[kept[number]]).all()
     assert (t.head[there] == own.head[kept[number]]).all()

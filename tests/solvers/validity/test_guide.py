@@ -39,7 +39,7 @@ def test_fields_solved_on_the_lines_have_the_defect_they_say(name: str, valence:
     change = valence - singularities[0].valence
     singularities[0] = replace(singularities[0], valence=valence)
     singularities[1] = replace(singularities[1], valence=singularities[1].valence - change)
-    exact = solver.discretization.delaunay.n_flips == 0
+    exact = solver.discretization.working.n_flips == 0
     before = solver.holonomy.defects(singularities)
     guide = Guide(solver.holonomy, singularities, 0)
     for condition in range(len(before)):
