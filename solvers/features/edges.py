@@ -19,7 +19,8 @@ from solvers.frozen import freeze_arrays, frozen_property
 from solvers.kind_checks import one_of_kind
 from solvers.singularities.budget import TIE
 from solvers.surface.refinement import Refinement
-from solvers.surface.triangulation import FloatArray, IntArray, next_halfedge, previous_halfedge
+from solvers.surface.sectors import corner_sectors
+from solvers.surface.triangulation import FloatArray, IntArray, previous_halfedge
 from solvers.surface.trisurface import TriSurface, barycentric
 
 NARROW = np.radians(30)
@@ -162,15 +163,9 @@ class Features:
         The sector of each halfedge's first corner (3 m,), the angle of each sector and its vertex.
         """
         t = self.surface.triangulation
-        blocked = t.twin < 0
+        blocked = np.zeros(len(t.twin), dtype=bool)
         blocked[self.halfedges] = blocked[t.twin[self.halfedges]] = True
-        h = np.flatnonzero(~blocked)
-        graph = coo_array(
-            (np.ones(len(h), dtype=np.int8), (h, next_halfedge(t.twin[h]))),
-            shape=(len(blocked), len(blocked)),
-        )
-        label = connected_components(graph, directed=False)[1]
-        sector = np.asarray(label, dtype=np.int64)
+        sector = corner_sectors(t, blocked)
         angle = np.asarray(np.bincount(sector, t.angles.reshape(-1)), dtype=np.float64)
         vertex = np.empty(len(angle), dtype=np.int64)
         vertex[sector] = t.tail

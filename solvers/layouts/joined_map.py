@@ -79,8 +79,8 @@ class JoinedMap:
         return False
 
     def _chart(self) -> Chart:
-        images = self._fit.map.images @ np.array([1, 1j])
-        return Chart(self.surface.triangulation, images, self._integrability.period_jumps)
+        matching, images = self._fit.matching, self._fit.map.images @ np.array([1, 1j])
+        return Chart(matching.triangulation, images, matching.period_jumps)
 
     def require_upright(self) -> None:
         """Raise `LayoutError` if triangles are inverted."""

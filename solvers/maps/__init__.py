@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from solvers.maps.closed_images import SeamlessMap
+from solvers.maps.matching import Matching
 from solvers.maps.seamless import seamless_map
 
-__all__ = ["SeamlessMap", "seamless_map"]
+__all__ = ["Matching", "SeamlessMap", "seamless_map"]

@@ -13,9 +13,15 @@ import numpy as np
 from scipy.sparse import coo_array, csc_array, diags_array, vstack
 
 from solvers.algebra.factorization import Analysis
-from solvers.fields.integrability import Integrability
-from solvers.frozen import freeze_arrays
-from solvers.surface.triangulation import QUARTER, FloatArray, IntArray
+from solvers.frozen import freeze_arrays, frozen_property
+from solvers.maps.matching import Matching
+from solvers.surface.triangulation import (
+    QUARTER,
+    BoolArray,
+    FloatArray,
+    IntArray,
+    previous_halfedge,
+)
 
 PASSES, ROUNDING = 3, 1e-14
 """Most solves that close images, and the gap, in parts of them, left for rounding. Chosen."""
@@ -27,6 +33,8 @@ class SeamlessMap:
 
     Parameters
     ----------
+    matching : Matching
+        The triangles, and what the images keep.
     images : (m, 3, 2) float array
         Image of each halfedge in the frame of its triangle's cross: along u, along v.
     distance : float
@@ -47,6 +55,7 @@ class SeamlessMap:
     []
     """
 
+    matching: Matching
     images: FloatArray
     distance: float
 
@@ -59,6 +68,18 @@ class SeamlessMap:
         first, last = self.images[:, 0], self.images[:, 2]
         area = last[:, 0] * first[:, 1] - last[:, 1] * first[:, 0]
         return np.flatnonzero(area <= 0)
+
+    @frozen_property
+    def wrong_windings(self) -> IntArray:
+        """Vertices with a sector whose images do not turn by as many quarters as quads meet there.
+
+        A map without inverted triangles may still go around a vertex once too often.
+        """
+        z = self.images.reshape(-1, 2) @ np.array([1, 1j])
+        tips = np.angle(-z[previous_halfedge(np.arange(len(z)))] / np.where(z == 0, 1, z))
+        m = self.matching
+        turned = np.bincount(m.sector, tips, len(m.quads))
+        return np.unique(m.vertex[np.rint(turned / QUARTER) != m.quads])
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,15 +116,16 @@ class Conditions:
 
     Parameters
     ----------
-    integrability : Integrability
-        The problem around the field.
+    matching : Matching
+        Of the field.
     """
 
-    def __init__(self, integrability: Integrability) -> None:
-        edges = integrability.triangulation.edge_halfedges
-        self.spread = _to_halfedges(integrability, edges)
-        self.closing = _closing(integrability, self.spread)
-        self.free = _free(integrability, edges).reshape(-1)
+    def __init__(self, matching: Matching) -> None:
+        edges = matching.triangulation.edge_halfedges
+        self.matching = matching
+        self.spread = _to_halfedges(matching, edges)
+        self.closing = _closing(matching, self.spread)
+        self.free = _free(matching, edges).reshape(-1)
         self.analysis = Analysis()
 
 
@@ -148,7 +170,9 @@ class ClosestImages:
         change = images - self._asked
         asked = self._diagonal @ self._asked**2
         distance = np.sqrt(self._diagonal @ change**2 / asked)
-        return SeamlessMap((self.conditions.spread @ images).reshape(-1, 3, 2), float(distance))
+        conditions = self.conditions
+        spread = (conditions.spread @ images).reshape(-1, 3, 2)
+        return SeamlessMap(conditions.matching, spread, float(distance))
 
     def joining(self, rows: csc_array) -> Joining:
         """Return the rows of halfedges' images (k, 6 m) with the moves that change each."""
@@ -165,17 +189,15 @@ class ClosestImages:
         return self._as_map(images)
 
 
-def _to_halfedges(integrability: Integrability, edges: IntArray) -> csc_array:
+def _to_halfedges(matching: Matching, edges: IntArray) -> csc_array:
     """Return the (6 m, 2 ne) matrix from edges' images to those of all halfedges."""
-    t = integrability.triangulation
+    t = matching.triangulation
     inner = t.twin[edges] >= 0
     number = np.arange(len(edges))
     h = np.concatenate([edges, t.twin[edges[inner]]])
     column = np.concatenate([number, number[inner]])
     # The twin runs the other way, and its cross is p quarter turns behind.
-    turns = np.concatenate(
-        [np.zeros(len(edges), int), 2 + integrability.period_jumps[edges[inner]]]
-    )
+    turns = np.concatenate([np.zeros(len(edges), int), 2 + matching.period_jumps[edges[inner]]])
     cosine = np.array([1, 0, -1, 0])[turns % 4]
     sine = np.array([0, 1, 0, -1])[turns % 4]
     rows = np.concatenate([2 * h, 2 * h, 2 * h + 1, 2 * h + 1])
@@ -184,9 +206,9 @@ def _to_halfedges(integrability: Integrability, edges: IntArray) -> csc_array:
     return coo_array((values, (rows, columns)), shape=(2 * len(t.twin), 2 * len(edges))).tocsc()
 
 
-def _closing(integrability: Integrability, spread: csc_array) -> csc_array:
+def _closing(matching: Matching, spread: csc_array) -> csc_array:
     """Return the (2 m, 2 ne) matrix that sums the edges of each triangle."""
-    m = integrability.triangulation.n_faces
+    m = matching.triangulation.n_faces
     rows = np.repeat(np.arange(m), 3)
     summing = coo_array(
         (
@@ -198,14 +220,11 @@ def _closing(integrability: Integrability, spread: csc_array) -> csc_array:
     return csc_array(summing @ spread)
 
 
-def _free(integrability: Integrability, edges: IntArray) -> np.ndarray:
+def _free(matching: Matching, edges: IntArray) -> BoolArray:
     """Return which components (ne, 2) are free: on aligned edges only the one along them."""
-    i, t = integrability, integrability.triangulation
+    axes = matching.axes[edges]
     free = np.ones((len(edges), 2), dtype=bool)
-    border = i.aligned_edges
-    h = edges[border]
-    angle = t.directions[h] - (i.theta[:, None] + i.offsets).reshape(-1)[h]
-    along_v = np.rint(angle / QUARTER).astype(int) % 2
-    free[border, 0] = along_v == 0
-    free[border, 1] = along_v == 1
+    border = axes >= 0
+    free[border, 0] = axes[border] % 2 == 0
+    free[border, 1] = axes[border] % 2 == 1
     return free

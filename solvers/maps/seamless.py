@@ -17,6 +17,7 @@ from scipy.sparse import csc_array
 from solvers.fields.aligned import IntegratedField
 from solvers.fields.integrability import Integrability
 from solvers.maps.closed_images import ClosestImages, Conditions, Joining, SeamlessMap
+from solvers.maps.matching import Matching
 from solvers.surface.triangulation import FloatArray, IntrinsicTriangulation
 
 LEAST_WEIGHT = 0.05
@@ -75,6 +76,8 @@ class SeamlessFit:
 
     Attributes
     ----------
+    matching : Matching
+        What every map of the field keeps.
     map : SeamlessMap
         The one with the fewest inverted triangles.
     joins : Joining
@@ -83,12 +86,13 @@ class SeamlessFit:
 
     def __init__(self, integrated: IntegratedField) -> None:
         integrability, x = integrated.aligned.integrability, integrated.x
+        self.matching = Matching.of(integrability)
         t = integrability.triangulation
         self._weight = np.maximum(t.weights, LEAST_WEIGHT / 2) * _by_size(integrability, x)
         self._wanted = _wanted(integrability, x)
         self._upright = _wanted_by_means(integrability, x)
         self._stiffer = np.zeros(t.n_faces, dtype=bool)
-        self._fit = ClosestImages(Conditions(integrability), self._wanted, self._weight)
+        self._fit = ClosestImages(Conditions(self.matching), self._wanted, self._weight)
         self.joins = self._fit.joining(csc_array((0, 6 * t.n_faces)))
         self.map = self._mended(self._fit.joined(self.joins))
 

@@ -9,6 +9,7 @@ from solvers.surface.geodesics import straightest
 from solvers.surface.homology import HandleLoops, handle_loops
 from solvers.surface.points import SurfacePoint
 from solvers.surface.refinement import LEVELS, Refinement, refine_at, refine_everywhere
+from solvers.surface.sectors import corner_sectors
 from solvers.surface.triangulation import (
     QUARTER,
     BoolArray,
@@ -38,6 +39,7 @@ __all__ = [
     "WorkingTriangulation",
     "array_problems",
     "barycentric",
+    "corner_sectors",
     "cut_graph",
     "handle_loops",
     "intrinsic_delaunay",
