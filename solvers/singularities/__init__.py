@@ -1,4 +1,4 @@
-"""Singularities and corners: the index budget, pairs, symmetry, spacing."""
+"""Singularities and corners: the index budget, what is possible, pairs, symmetry, spacing."""
 
 from __future__ import annotations
 
@@ -13,18 +13,34 @@ from solvers.singularities.budget import (
 )
 from solvers.singularities.farthest import far_points
 from solvers.singularities.pairs import merged, pair_at, split
-from solvers.singularities.remedies import AddMissing, ChangeOne, RemoveOne
+from solvers.singularities.remedies import (
+    AddMissing,
+    AddPair,
+    ChangeCorners,
+    ChangeOne,
+    ChangeTurns,
+    RemoveOne,
+)
 from solvers.singularities.symmetry import mirrored, rotated
+from solvers.singularities.theorems import Theorem
+from solvers.singularities.topology import Existence, decide, existence
 
 __all__ = [
     "AddMissing",
+    "AddPair",
+    "ChangeCorners",
     "ChangeOne",
+    "ChangeTurns",
+    "Existence",
     "IndexBudget",
     "RemoveOne",
     "Singularity",
+    "Theorem",
     "checked_corners",
     "checked_singularities",
+    "decide",
     "default_corners",
+    "existence",
     "far_points",
     "index_budget",
     "merged",

@@ -1,7 +1,8 @@
-"""What may be done about an index budget that is missed."""
+"""What may be done about singularities and corners that have no quad mesh."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from solvers.remedies import Remedy
@@ -104,3 +105,87 @@ class RemoveOne(Remedy):
     def label(self) -> str:
         """What a button says that does it."""
         return f"Delete #{self.number + 1}"
+
+
+@dataclass(frozen=True)
+class AddPair(Remedy):
+    """Add a valence 3 and a valence 5 where there is most room: the sum of indices stays.
+
+    Parameters
+    ----------
+    words : str, optional
+        As in `Remedy`.
+
+    Examples
+    --------
+    >>> from solvers.singularities import AddPair
+    >>> AddPair().label
+    'Add a pair of valences 3 and 5'
+    """
+
+    words: str = "add a pair of valences 3 and 5"
+
+
+@dataclass(frozen=True)
+class ChangeCorners(Remedy):
+    """Give corners other indices.
+
+    Parameters
+    ----------
+    words : str
+        As in `Remedy`.
+    corners : tuple of (int, int)
+        Boundary vertices that change, with their new indices; 0 for none.
+
+    Examples
+    --------
+    >>> from solvers.singularities import ChangeCorners
+    >>> ChangeCorners.none_of({5: 1, 3: -1}).corners
+    ((3, 0), (5, 0))
+    """
+
+    corners: tuple[tuple[int, int], ...]
+
+    @classmethod
+    def none_of(cls, vertices: Iterable[int]) -> ChangeCorners:
+        """Return the remedy that takes corners away, in its usual words.
+
+        Parameters
+        ----------
+        vertices : iterable of int
+            Where they are.
+        """
+        gone = tuple((vertex, 0) for vertex in sorted(vertices))
+        return cls(f"take the {len(gone)} corners away", gone)
+
+
+@dataclass(frozen=True)
+class ChangeTurns(Remedy):
+    """Let the crosses turn otherwise over the holonomy conditions.
+
+    Parameters
+    ----------
+    words : str
+        As in `Remedy`.
+    turns : tuple of int
+        Quarter turns over each, besides those nearest to the isotropic field.
+
+    Examples
+    --------
+    >>> from solvers.singularities import ChangeTurns
+    >>> ChangeTurns.of((0, 0)).words
+    'take the turns 0, 0'
+    """
+
+    turns: tuple[int, ...]
+
+    @classmethod
+    def of(cls, turns: tuple[int, ...]) -> ChangeTurns:
+        """Return the remedy, in its usual words.
+
+        Parameters
+        ----------
+        turns : tuple of int
+            As of the class.
+        """
+        return cls(f"take the turns {', '.join(map(str, turns))}", turns)
