@@ -5,6 +5,7 @@
 # make table  the table of docs/anisotropic.md (minutes); CROSSVIEW_DATA names a folder of surfaces
 # make study  100 random configurations made valid, the anticube from random starts: the tables of
 #             docs/make_valid.md and docs/natural.md (minutes)
+# make maps   how many surfaces get their map: the tables of docs/maps.md (an hour); CROSSVIEW_DATA names a folder
 # make keys   the table of case keys in README.md
 # make bench-peers  quads beside other meshers, on the same surfaces: the table of docs/quads.md (minutes)
 # make clean  forget the environment and every cache
@@ -16,7 +17,7 @@ PICTURE := crossview.png
 XVFB := $(if $(filter Darwin,$(shell uname)),,xvfb-run -a -s "-screen 0 1600x1200x24")
 PIP_INSTALL := $(VENV)/bin/python -m pip install --disable-pip-version-check
 
-.PHONY: run test docs bench table study keys bench-peers clean
+.PHONY: run test docs bench table study maps keys bench-peers clean
 
 run:
 	@sh tools/system-packages.sh window "$(PYTHON)"
@@ -50,6 +51,11 @@ study:
 	@$(MAKE) --no-print-directory $(VENV)/installed
 	$(VENV)/bin/python -m benchmarks.make_valid docs/make_valid.md
 	$(VENV)/bin/python -m benchmarks.anticube docs/natural.md
+
+maps:
+	@$(MAKE) --no-print-directory $(VENV)/installed
+	mkdir -p build && rm -f build/maps.jsonl
+	$(VENV)/bin/python -m benchmarks.maps docs/maps.md build/maps.jsonl
 
 keys:
 	@$(MAKE) --no-print-directory $(VENV)/installed
