@@ -23,7 +23,7 @@ from crossview.workflow.pipeline import Pipeline
 from crossview.workflow.problem import Problem
 from crossview.workflow.solution import Solution
 from solvers import CrossviewError, Progress, TriSurface, run
-from solvers.fields import CURVATURE_WEIGHT
+from solvers.fields import CURVATURE_WEIGHT, MOST_VALENCE
 from solvers.kind_checks import one_of_kind
 from solvers.layouts import QuadLayout
 from solvers.quads import QuadMesh
@@ -126,6 +126,8 @@ def natural(
     *,
     alignment: str = "smoothness",
     weight: float = CURVATURE_WEIGHT,
+    most_valence: int = MOST_VALENCE,
+    fewest: bool = False,
     progress: Watch = None,
 ) -> Problem:
     """Put the singularities of a smooth cross-field in place of a problem's.
@@ -142,6 +144,10 @@ def natural(
         Whether the crosses are also drawn towards the directions of principal curvature.
     weight : float, optional
         How strongly.
+    most_valence : int, optional
+        Of a singularity; none has less than 2.
+    fewest : bool, optional
+        Whether as few singularities are to be left as the index budget allows.
     progress : callable, optional
         Called with each step.
 
@@ -153,7 +159,8 @@ def natural(
     Raises
     ------
     CrossviewError
-        The method or the alignment is unknown, or the weight is negative or not finite.
+        The method or the alignment is unknown, the weight is negative or not finite, or the most
+        valence is below 5.
 
     Examples
     --------
@@ -165,7 +172,15 @@ def natural(
     [3, 3, 3, 3, 3, 3, 3, 3]
     """
     _require("problem", problem, Problem)
-    computation = configurations.natural(problem, method, seed, alignment=alignment, weight=weight)
+    computation = configurations.natural(
+        problem,
+        method,
+        seed,
+        alignment=alignment,
+        weight=weight,
+        most_valence=most_valence,
+        fewest=fewest,
+    )
     return run(computation, progress)
 
 

@@ -6,7 +6,7 @@ from crossview.cli.options import FeatureOptions, Output, Quiet
 from crossview.cli.terminal import say, watch
 from crossview.workflow import configurations
 from crossview.workflow.problem import Problem
-from solvers.fields import CURVATURE_WEIGHT, NATURAL_ALIGNMENTS, NATURAL_METHODS
+from solvers.fields import CURVATURE_WEIGHT, MOST_VALENCE, NATURAL_ALIGNMENTS, NATURAL_METHODS
 
 
 def natural(
@@ -18,6 +18,8 @@ def natural(
     seed: int = 0,
     alignment: str = NATURAL_ALIGNMENTS[0],
     weight: float = CURVATURE_WEIGHT,
+    most_valence: int = MOST_VALENCE,
+    fewest: bool = False,
     chosen: FeatureOptions = FeatureOptions(),
     quiet: Quiet = False,
 ) -> None:
@@ -37,10 +39,22 @@ def natural(
         smoothness, or curvature: also draw the crosses towards the principal directions.
     weight
         How strongly the curvature draws.
+    most_valence
+        Of a singularity; none has less than 2.
+    fewest
+        Let opposite indices cancel until as few are left as the index budget allows.
     """
     found = chosen.case(surface)
     given = Problem.from_case(found)
-    computation = configurations.natural(given, method, seed, alignment=alignment, weight=weight)
+    computation = configurations.natural(
+        given,
+        method,
+        seed,
+        alignment=alignment,
+        weight=weight,
+        most_valence=most_valence,
+        fewest=fewest,
+    )
     problem = watch(computation, quiet)
     problem.to_case(found.surface, found.title).save(output)
     if not quiet:

@@ -296,6 +296,12 @@ ACTIONS: tuple[ActionSpec, ...] = (
         checked=lambda s: s.along_curvature, separated=True, submenu="Natural singularities",
     ),
     ActionSpec(
+        "fewest-natural", "As few as may be", "Singularities",
+        lambda w: w.session.moves.toggle_fewest_natural(),
+        tip="Let natural singularities of opposite indices cancel, until the fewest are left",
+        checked=lambda s: s.fewest_natural, submenu="Natural singularities",
+    ),
+    ActionSpec(
         "solve", "Solve", "Solve", lambda w: w.session.solving.solve(), ("F5",), "solve",
         "Solve again with refinement at the singularities", _solvable,
     ),

@@ -67,6 +67,8 @@ class Facts:
     feature_trial : FeatureTrial or None
     along_curvature : bool
         Whether natural singularities come from crosses that are drawn to principal directions.
+    fewest_natural : bool
+        Whether as few natural singularities are left as the index budget allows.
     guide : tuple of GuideLine
         Where the singularity under the mouse may go.
     poor : bool
@@ -90,6 +92,7 @@ class Facts:
     trial: Trial | None = None
     feature_trial: FeatureTrial | None = None
     along_curvature: bool = False
+    fewest_natural: bool = False
     guide: tuple[GuideLine, ...] = ()
     poor: bool = False
     layers: Mapping[str, LayerSettings] = dataclasses.field(default_factory=default_layers)

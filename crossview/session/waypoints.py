@@ -77,7 +77,11 @@ def move_to_validity(
 
 
 def place_natural(
-    document: Document, method: str, alignment: str = NATURAL_ALIGNMENTS[0]
+    document: Document,
+    method: str,
+    alignment: str = NATURAL_ALIGNMENTS[0],
+    *,
+    fewest: bool = False,
 ) -> Generator[Progress, None, Command]:
     """Find the singularities of a smooth cross-field, with automatic corners as it has.
 
@@ -86,10 +90,12 @@ def place_natural(
     Parameters
     ----------
     document : Document
-    method, alignment : str
+    method, alignment, fewest
         As of `natural_singularities`.
     """
-    computation = configurations.natural(document.problem, method, alignment=alignment)
+    computation = configurations.natural(
+        document.problem, method, alignment=alignment, fewest=fewest
+    )
     drawn = -DRAWN_EVERY
 
     def show(step: Progress) -> Progress:
@@ -101,7 +107,8 @@ def place_natural(
         return Waypoint(step.stage, step.fraction, (), None, field)
 
     found = yield from relayed(_paced(computation), show)
-    name = f"natural singularities ({NATURAL_LABELS[method]})"
+    how = f"{NATURAL_LABELS[method]}, fewest" if fewest else NATURAL_LABELS[method]
+    name = f"natural singularities ({how})"
     return ReplaceSingularities(tuple(found.singularities), name, automatic_corners=True)
 
 

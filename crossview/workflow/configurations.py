@@ -9,6 +9,7 @@ from crossview.workflow.problem import Problem
 from solvers import Progress
 from solvers.fields import (
     CURVATURE_WEIGHT,
+    MOST_VALENCE,
     NATURAL_ALIGNMENTS,
     NATURAL_METHODS,
     IsotropicSolver,
@@ -28,13 +29,15 @@ def natural(
     *,
     alignment: str = NATURAL_ALIGNMENTS[0],
     weight: float = CURVATURE_WEIGHT,
+    most_valence: int = MOST_VALENCE,
+    fewest: bool = False,
 ) -> Placing:
     """Put the singularities of a smooth cross-field in place of a problem's, with its own corners.
 
     Parameters
     ----------
     problem : Problem
-    method, seed, alignment, weight
+    method, seed, alignment, weight, most_valence, fewest
         As of `solvers.fields.natural_singularities`.
 
     Raises
@@ -44,7 +47,14 @@ def natural(
     """
     bare = replace(problem, singularities=(), corners=None)
     singularities = yield from natural_singularities(
-        bare.surface, method, seed, alignment=alignment, weight=weight, features=bare.features
+        bare.surface,
+        method,
+        seed,
+        alignment=alignment,
+        weight=weight,
+        features=bare.features,
+        most_valence=most_valence,
+        fewest=fewest,
     )
     require_budget(bare.surface, singularities, bare.chosen_corners)
     return replace(bare, singularities=singularities)

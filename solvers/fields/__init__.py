@@ -15,12 +15,14 @@ from solvers.fields.natural import (
     CrossesStep,
     natural_singularities,
 )
+from solvers.fields.placement import MOST_VALENCE
 from solvers.fields.prepared import Operators, PreparedSurface, prepare
 from solvers.fields.sizes import size_map
 from solvers.fields.verdict import TOLERANCE_DEGREES, Limits, Verdict, judge
 
 __all__ = [
     "CURVATURE_WEIGHT",
+    "MOST_VALENCE",
     "NATURAL_ALIGNMENTS",
     "NATURAL_METHODS",
     "TOLERANCE_DEGREES",

@@ -22,11 +22,13 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 from scipy.sparse import coo_array, csc_array, diags_array
+from scipy.sparse.csgraph import connected_components
 
 from solvers.algebra.factorization import factorized
-from solvers.errors import CrossviewError, SingularityError
+from solvers.errors import CrossviewError
 from solvers.features.edges import Features, no_features
 from solvers.fields.crossfield import Convergence, CrossField
+from solvers.fields.placement import MOST_VALENCE, placed_singularities
 from solvers.fields.principal import principal_crosses
 from solvers.number_checks import real_number, whole_number
 from solvers.progress import Progress
@@ -129,6 +131,8 @@ def natural_singularities(
     alignment: str = "smoothness",
     weight: float = CURVATURE_WEIGHT,
     features: Features | None = None,
+    most_valence: int = MOST_VALENCE,
+    fewest: bool = False,
 ) -> Generator[Progress, None, tuple[Singularity, ...]]:
     """Return the singularities of a smooth cross-field aligned with boundaries and features.
 
@@ -148,20 +152,27 @@ def natural_singularities(
         How strongly, against the smoothness: -lambda of Knoeppel et al. times the area.
     features : Features, optional
         Edges of the surface to be aligned with; by default none.
+    most_valence : int, optional
+        Of a singularity, 5 or more. None has less than 2, around which no quads close: what a
+        vertex has too much goes to where the energy falls most.
+    fewest : bool, optional
+        Whether singularities of opposite indices are to cancel, pair by pair, those first whose
+        cancelling costs the least energy, until none are left in any region between features.
 
     Returns
     -------
     tuple of Singularity
         At inner vertices and in triangles; their indices and those of the default corners sum
-        to the budget. The result of the computation, for `solvers.run`.
+        to the budget. Every sector between features at an inner vertex has a quad at least. The
+        result of the computation, for `solvers.run`.
 
     Raises
     ------
     CrossviewError
-        If the method or the alignment is unknown, the weight is negative or not finite, or the
-        features are of another surface.
+        If the method or the alignment is unknown, the weight is negative or not finite, the most
+        valence is below 5, or the features are of another surface.
     SingularityError
-        If singularities are needed and the surface has no vertex inside.
+        If the surface has too few triangles for the singularities that are needed.
 
     Notes
     -----
@@ -177,6 +188,13 @@ def natural_singularities(
     [3, 3, 3, 3]
     >>> run(natural_singularities(square(n=8)))  # its corners are all it needs
     ()
+
+    A torus needs none, but a smooth cross-field has some:
+
+    >>> from solvers.primitives import torus
+    >>> surface = torus(n=24)
+    >>> len(run(natural_singularities(surface))), run(natural_singularities(surface, fewest=True))
+    (12, ())
     """
     if method not in NATURAL_METHODS:
         raise CrossviewError(
@@ -188,6 +206,7 @@ def natural_singularities(
         )
     weight = real_number("the weight of the curvature", weight, 0)
     seed = whole_number("the seed", seed, 0)
+    most = whole_number("the most valence", most_valence, 5)
     pull = weight if alignment == "curvature" else 0.0
     along = no_features(surface) if features is None else features.require_on(surface)
     problem = _Crosses(surface, along, pull)
@@ -196,7 +215,13 @@ def natural_singularities(
         "ginzburg-landau": problem.ginzburg_landau,
         "globally-optimal": problem.globally_optimal,
     }[method](np.random.default_rng(seed))
-    return _as_singularities(surface, *problem.indices(z))
+    index = problem.indices(z)
+    for corner, turning in default_corners(surface).items():
+        index[corner] -= turning
+    lacking = problem.lacking_quads(z)
+    return placed_singularities(
+        surface, index, along, lacking, most_valence=most, fewest=bool(fewest)
+    )
 
 
 class _Crosses:
@@ -228,6 +253,9 @@ class _Crosses:
         self.mass = np.bincount(self.edge, np.repeat(t.areas / 3, 3), n)
         self.free = surface.edge_faces[:, 1] >= 0
         self.free[features.edges] = False
+        self.between_features = np.zeros(t.n_vertices, dtype=bool)
+        self.between_features[surface.edges[features.edges]] = True
+        self.between_features[surface.boundary_vertices] = False  # its corners are chosen
         self.size = float(surface.area)
         # pull int |z - principal|^2 is added to the energy.
         self.pulled = np.zeros(n, dtype=complex)
@@ -297,21 +325,45 @@ class _Crosses:
                 break
         return z
 
-    def indices(self, z: ComplexArray) -> tuple[IntArray, IntArray]:
-        """Return the indices of vertices and of triangles: quarter turns of the cross around.
+    def indices(self, z: ComplexArray) -> IntArray:
+        """Return the indices of vertices, then of triangles: quarter turns of the cross around.
 
         Between neighbouring midpoints the cross turns by the least angle, so the indices of all
         vertices and triangles sum to the budget whatever the values are.
         """
+        turning = self._turning(z)
+        # Halfedges h and h + 1 meet at the head of h; going around it runs from h + 1 to h.
+        around = self.t.curvatures - np.bincount(self.t.head, turning, self.t.n_vertices)
+        inside = turning.reshape(-1, 3).sum(axis=1)
+        return _quarter_turns(np.concatenate([around, inside]))
+
+    def lacking_quads(self, z: ComplexArray) -> IntArray:
+        """Return how many quads each vertex lacks for every sector between features to have one.
+
+        A sector is what lies at a vertex between two edges that the crosses are aligned with.
+        """
         t = self.t
         h = np.arange(len(t.twin))
-        after = next_halfedge(h)
+        # The corner at the head of a halfedge and that across the next one are of one sector.
+        across = t.twin[next_halfedge(h)]
+        joined = self.free[self.edge[next_halfedge(h)]]
+        graph = coo_array(
+            (np.ones(joined.sum()), (h[joined], across[joined])), shape=(len(h), len(h))
+        )
+        count, sector = connected_components(graph, directed=False)
+        angle = t.angles.reshape(-1)[next_halfedge(h)]
+        turned = np.bincount(sector, angle + self._turning(z), count).astype(np.float64)
+        quads = _quarter_turns(turned)
+        at = np.empty(count, dtype=np.int64)
+        at[sector] = t.head
+        lacking = np.bincount(at, np.maximum(0, 1 - quads), t.n_vertices).astype(np.int64)
+        return np.where(self.between_features, lacking, 0)
+
+    def _turning(self, z: ComplexArray) -> FloatArray:
+        """Return by how much the cross turns from the midpoint of each halfedge to the next's."""
+        after = next_halfedge(np.arange(len(self.t.twin)))
         seen = np.angle(z[self.edge[after]] * (z[self.edge] * self.turn).conj())
-        turning = wrap(seen, 2 * np.pi) / 4
-        # Halfedges h and h + 1 meet at the head of h; going around it runs from h + 1 to h.
-        around = t.curvatures - np.bincount(t.head, turning, t.n_vertices)
-        inside = turning.reshape(-1, 3).sum(axis=1)
-        return _quarter_turns(around), _quarter_turns(inside)
+        return wrap(seen, 2 * np.pi) / 4
 
 
 def _quarter_turns(angle: FloatArray) -> IntArray:
@@ -355,34 +407,3 @@ class _Hermitian:
 
 def _unit(z: ComplexArray) -> ComplexArray:
     return z / np.maximum(np.abs(z), 1e-300)
-
-
-def _as_singularities(
-    surface: TriSurface, of_vertices: IntArray, of_faces: IntArray
-) -> tuple[Singularity, ...]:
-    """Return the indices as singularities; those on the boundary move to an inner neighbour."""
-    excess = of_vertices.copy()
-    for corner, index in default_corners(surface).items():
-        excess[corner] -= index
-    inner = np.flatnonzero(~surface.boundary_vertices)
-    misplaced = np.flatnonzero((excess != 0) & surface.boundary_vertices)
-    if len(misplaced) and not len(inner):
-        raise SingularityError(
-            "the surface has no vertex inside where a singularity could go",
-            f"{surface.n_vertices} vertices on the boundary",
-            "give a finer one",
-        )
-    for vertex in misplaced:
-        gap = np.linalg.norm(surface.vertices[inner] - surface.vertices[vertex], axis=1)
-        excess[inner[np.argmin(gap)]] += excess[vertex]
-        excess[vertex] = 0
-    centre = (1 / 3, 1 / 3, 1 / 3)
-    at_vertices = [
-        Singularity(surface.point_at_vertex(int(v)), 4 - int(excess[v]))
-        for v in np.flatnonzero(excess)
-    ]
-    at_faces = [
-        Singularity(surface.point(int(f), centre), 4 - int(of_faces[f]))
-        for f in np.flatnonzero(of_faces)
-    ]
-    return (*at_vertices, *at_faces)

@@ -195,3 +195,12 @@ def test_a_stopped_natural_field_leaves_nothing_where_there_was_none(hand: Hand)
     assert hand.state.field is None
     assert hand.state.singularities == ()
     assert "nothing was changed" in hand.state.message.text
+
+
+def test_as_few_natural_singularities_as_may_be(hand: Hand) -> None:
+    hand.open("torus")
+    hand.trigger("fewest-natural")
+    assert hand.state.fewest_natural
+    hand.trigger("natural-mbo")
+    hand.wait(lambda: hand.state.undo_name == "natural singularities (MBO, fewest)")
+    assert hand.state.singularities == ()

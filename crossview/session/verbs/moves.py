@@ -30,11 +30,19 @@ class Moves(VerbGroup):
             alignment = "curvature" if state.along_curvature else "smoothness"
             # on their way there are none
             self._store.update(state.focused(replace(state.focus, selected=None, partner=None)))
-            self._run(partial(place_natural, state.document, method, alignment))
+            place = partial(
+                place_natural, state.document, method, alignment, fewest=state.fewest_natural
+            )
+            self._run(place)
 
     def toggle_along_curvature(self) -> None:
         """Draw the crosses of natural singularities towards the directions of curvature, or not."""
         self._store.update(replace(self._state, along_curvature=not self._state.along_curvature))
+
+    def toggle_fewest_natural(self) -> None:
+        """Leave as few natural singularities as the index budget allows, or all."""
+        fewest = not self._state.fewest_natural
+        self._store.update(replace(self._state, fewest_natural=fewest))
 
     def _run(self, job: Callable[[], Generator[Progress, None, Command]]) -> None:
         def failed(error: Exception) -> None:

@@ -18,6 +18,13 @@ def test_a_surface_gets_natural_singularities_and_solves(
     assert report["isotropically_valid"]
 
 
+def test_a_torus_needs_none(crossview: Crossview, tmp_path: Path) -> None:
+    new = tmp_path / "natural.json"
+    ran = crossview("natural", "torus", "-o", new, "--fewest")
+    assert (ran.status, ran.err) == (0, "")
+    assert ran.out.startswith("0 singularities; wrote ")
+
+
 def test_an_unknown_method_is_one_line(crossview: Crossview, tmp_path: Path) -> None:
     new = tmp_path / "natural.json"
     ran = crossview("natural", "disk", "-o", new, "--method", "best")

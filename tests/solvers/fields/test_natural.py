@@ -5,9 +5,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from solvers.errors import CrossviewError, SingularityError
+from solvers.errors import CrossviewError
 from solvers.features.dihedral import sharp_edges
 from solvers.features.edges import Features
+from solvers.fields.isotropic import IsotropicSolver
 from solvers.fields.natural import NATURAL_METHODS, CrossesStep, natural_singularities
 from solvers.fields.principal import principal_crosses
 from solvers.primitives import BUILTIN
@@ -129,15 +130,64 @@ def test_a_cone_of_features_gathers_singularities_at_its_corners() -> None:
 
 
 @pytest.mark.parametrize(
-    "wrong", [{"alignment": "symmetry"}, {"alignment": "curvature", "weight": -1.0}]
+    "wrong",
+    [
+        {"alignment": "symmetry"},
+        {"alignment": "curvature", "weight": -1.0},
+        {"most_valence": 4},
+    ],
 )
 def test_wrong_options_are_refused(wrong: dict[str, Any]) -> None:
-    with pytest.raises(CrossviewError, match=r"smoothness, curvature|weight"):
+    with pytest.raises(CrossviewError, match=r"smoothness, curvature|weight|most valence"):
         run(natural_singularities(SURFACES["disk"](), **wrong))
 
 
-def test_a_surface_without_vertices_inside_has_no_room_for_singularities() -> None:
+def test_a_surface_without_vertices_inside_has_them_in_its_triangles() -> None:
     hexagon = [[np.cos(a), np.sin(a), 0] for a in np.pi / 3 * np.arange(6)]
     surface = TriSurface(hexagon, [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]])
-    with pytest.raises(SingularityError, match="no vertex inside"):
-        run(natural_singularities(surface))
+    found = run(natural_singularities(surface))
+    assert index_budget(surface, found, default_corners(surface)).satisfied
+    assert len({s.point.face for s in found}) == len(found) > 0
+    field = IsotropicSolver(surface).solve(found)  # refuses those on the boundary, or together
+    assert np.abs(field.boundary_misalignment).max() < 1e-9
+
+
+def test_a_triangle_has_one_valence_3() -> None:
+    (only,) = run(natural_singularities(TriSurface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])))
+    assert only.valence == 3
+
+
+def spike(height: float) -> TriSurface:
+    """A disk drawn up to a needle in its middle."""
+    flat = BUILTIN["disk"](edge_length=0.15)
+    x, y, _ = flat.vertices.T
+    up = height * np.maximum(0, 1 - 3 * np.hypot(x, y))
+    return TriSurface(np.stack([x, y, up], axis=1), flat.faces)
+
+
+@pytest.mark.parametrize("method", NATURAL_METHODS)
+def test_a_spike_has_no_valence_below_2(method: str) -> None:
+    surface = spike(10)
+    assert surface.angle_defects.max() > np.radians(300)  # that of a valence 1 or 0
+    found = run(natural_singularities(surface, method))
+    assert min(s.valence for s in found) >= 2
+    assert index_budget(surface, found, default_corners(surface)).satisfied
+
+
+@pytest.mark.parametrize("name", ["torus", "double_torus", "sphere", "plate", "annulus"])
+def test_the_fewest_singularities_are_what_the_budget_asks_for(name: str) -> None:
+    surface = SURFACES[name]()
+    missing = index_budget(surface, (), default_corners(surface)).missing
+    found = run(natural_singularities(surface, fewest=True))
+    assert [s.valence for s in found] == [4 - int(np.sign(missing))] * abs(missing)
+
+
+def test_every_sector_between_features_has_a_quad() -> None:
+    surface = BUILTIN["disk"](edge_length=0.2)
+    middle = surface.nearest_vertex(surface.closest_point([0, 0, 0]))
+    spokes = np.flatnonzero((surface.edges == middle).any(axis=1))
+    assert len(spokes) > 4
+    found = run(natural_singularities(surface, features=Features(surface, spokes)))
+    (hub,) = (s for s in found if s.point == surface.point_at_vertex(middle))
+    assert hub.valence == len(spokes)
+    assert index_budget(surface, found, default_corners(surface)).satisfied
