@@ -14,7 +14,7 @@ from crossview.cli.terminal import say, say_json, watch
 from crossview.io.staged_files import staged
 from crossview.workflow.layout import layout_soon
 from crossview.workflow.pipeline import Solution, of_component, solve_case
-from crossview.workflow.quads import MeshOptions, quads_of
+from crossview.workflow.quads import MeshOptions, quads_of, require_closing
 from solvers.errors import CrossviewError
 from solvers.layouts import QuadLayout
 from solvers.progress import Progress
@@ -91,6 +91,8 @@ def _solved_into(
     from crossview.export.report import write_files
 
     results: Results = []
+    if wanted is not None:
+        require_closing(case.singularities)
     solutions = yield from solve_case(case)
     for number, solution in enumerate(solutions):
         if wanted is None:

@@ -15,10 +15,19 @@ from crossview.session.commands import (
     ReplaceSingularities,
 )
 from crossview.session.document import Document
-from crossview.session.rearrangements import distribute
+from crossview.session.rearrangements import distribute, merge, move_inside, split_one
 from solvers.progress import Progress
 from solvers.remedies import Remedy, UseMethod
-from solvers.singularities import AddMissing, ChangeOne, RemoveOne, Singularity, far_points
+from solvers.singularities import (
+    AddMissing,
+    ChangeOne,
+    MergeTwo,
+    MoveInside,
+    RemoveOne,
+    Singularity,
+    SplitOne,
+    far_points,
+)
 from solvers.validity import MOST_PLACED, PlaceAnew
 
 
@@ -73,6 +82,12 @@ def mend(document: Document, remedy: Remedy) -> Generator[Progress, None, Comman
             return (yield from distribute(document))
         case ChangeOne(number=number, valence=valence):
             return ChangeValence(number, valence)
+        case MergeTwo(one=one, other=other):
+            return merge(document, one, other)
+        case SplitOne(number=number):
+            return split_one(document, number)
+        case MoveInside(number=number):
+            return move_inside(document, number)
         case RemoveOne(number=number):
             return RemoveSingularities(frozenset({number}))
         case PlaceAnew(singularities=singularities, step=step):

@@ -6,9 +6,15 @@ from collections.abc import Generator
 
 import numpy as np
 
-from crossview.session.commands import AddSingularities, Command, ReplaceSingularities
+from crossview.session.commands import (
+    AddSingularities,
+    Command,
+    MoveSingularity,
+    ReplaceSingularities,
+)
 from crossview.session.document import Document
 from crossview.workflow import configurations
+from solvers.errors import SingularityError
 from solvers.progress import Progress
 from solvers.singularities import far_points, merged, mirrored, pair_at, rotated, split
 from solvers.surface import SurfacePoint
@@ -37,6 +43,25 @@ def split_one(document: Document, which: int) -> Command:
     """Make two singularities of one."""
     made = split(document.surface, document.singularities, which)
     return ReplaceSingularities(made, f"split singularity {which + 1}")
+
+
+def move_inside(document: Document, which: int) -> Command:
+    """Take one singularity to the nearest vertex inside that is free.
+
+    Raises
+    ------
+    SingularityError
+        None is.
+    """
+    surface, placed = document.surface, document.singularities
+    taken = [surface.nearest_vertex(s.point) for i, s in enumerate(placed) if i != which]
+    free = ~surface.boundary_vertices
+    free[taken] = False
+    if not free.any():
+        raise SingularityError("no vertex inside is free", advice="remove the singularity")
+    away = np.linalg.norm(surface.vertices - surface.position(placed[which].point), axis=1)
+    vertex = int(np.argmin(np.where(free, away, np.inf)))
+    return MoveSingularity(which, surface.point_at_vertex(vertex))
 
 
 def mirror(document: Document, axis: int) -> Command:

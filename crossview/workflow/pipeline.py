@@ -29,7 +29,7 @@ from solvers.fields import (
 )
 from solvers.layouts import in_joining_gauge, joined_field
 from solvers.progress import Progress, between
-from solvers.singularities import require_budget
+from solvers.singularities import require_budget, require_places
 from solvers.surface import FloatArray
 
 __all__ = ["Pipeline", "Solution", "of_component", "solve_case"]
@@ -59,6 +59,7 @@ class Pipeline:
             The index budget is missed, a singularity is on the boundary, two coincide, the turns
             are too many or too few, or the size map is wrong.
         """
+        require_places(problem.surface, problem.singularities)
         require_budget(problem.surface, problem.singularities, problem.chosen_corners)
         wanted = problem.options.sizes if problem.method == "anisotropic" else None
         sizes = None if wanted is None else read_sizes(wanted, problem.surface.n_vertices)

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Generator
+from collections.abc import Generator, Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from crossview.cases.model import PlacedSingularity
 from crossview.workflow.layout import layout
 from crossview.workflow.solution import Solution
 from solvers.errors import CrossviewError
-from solvers.fields import CrossField
 from solvers.layouts import QuadLayout
 from solvers.number_checks import real_number, whole_number
 from solvers.progress import Progress, between
 from solvers.quads import MOST_QUADS, QuadMesh, fill, quantize, quantize_to, smooth
+from solvers.singularities import Singularity, SplitOne
 from solvers.surface import TriSurface
 
 DEFAULT_QUADS = 5_000
@@ -101,7 +102,7 @@ def quads(layout: QuadLayout, options: MeshOptions) -> Generator[Progress, None,
     """
     surface, tmesh = layout.surface, layout.tmesh
     number = options.number_on(surface)
-    _require_closing(layout.integrated.field)
+    require_closing(layout.integrated.field.singularities)
     yield Progress("choosing numbers of quads", 0.0)
     if options.edge_length is None:
         chosen = quantize_to(tmesh, number, collapse=options.collapse)
@@ -140,9 +141,11 @@ def quads_of(
     Raises
     ------
     CrossviewError
-        As `layout` and `quads`; what is wrong with the options is told before anything is made.
+        As `layout` and `quads`; what is wrong with the options or with a valence is told
+        before anything is made.
     """
     options.number_on(solution.surface)
+    require_closing(solution.field.singularities)
     start = time.perf_counter()
     made = yield from between(layout(solution), 0.0, 0.5)
     middle = time.perf_counter()
@@ -151,12 +154,24 @@ def quads_of(
     return replace(solution, seconds={**solution.seconds, **seconds}), made, filled
 
 
-def _require_closing(field: CrossField) -> None:
-    """Refuse a valence 1: both sides of its quad would be one edge."""
-    lone = [i for i, s in enumerate(field.singularities, start=1) if s.valence == 1]
+def require_closing(singularities: Iterable[Singularity | PlacedSingularity]) -> None:
+    """Refuse a valence 1: both sides of its quad would be one edge.
+
+    Parameters
+    ----------
+    singularities : iterable of Singularity or PlacedSingularity
+
+    Raises
+    ------
+    CrossviewError
+        There is one.
+    """
+    lone = [i for i, s in enumerate(singularities) if s.valence == 1]
     if lone:
+        numbers = ", ".join(str(i + 1) for i in lone)
         raise CrossviewError(
             "no quad closes around a valence 1",
-            f"singularity {', '.join(map(str, lone))}",
-            "take valence 2 or more there, such as a 2 and a 3 (split)",
+            f"singularity {numbers}",
+            "take valence 2 or more there",
+            remedies=(SplitOne(f"split #{lone[0] + 1} into a 2 and a 3", lone[0]),),
         )

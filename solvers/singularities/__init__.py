@@ -13,13 +13,17 @@ from solvers.singularities.budget import (
 )
 from solvers.singularities.farthest import far_points
 from solvers.singularities.pairs import merged, pair_at, split
+from solvers.singularities.places import require_places
 from solvers.singularities.remedies import (
     AddMissing,
     AddPair,
     ChangeCorners,
     ChangeOne,
     ChangeTurns,
+    MergeTwo,
+    MoveInside,
     RemoveOne,
+    SplitOne,
 )
 from solvers.singularities.symmetry import mirrored, rotated
 from solvers.singularities.theorems import Theorem
@@ -33,8 +37,11 @@ __all__ = [
     "ChangeTurns",
     "Existence",
     "IndexBudget",
+    "MergeTwo",
+    "MoveInside",
     "RemoveOne",
     "Singularity",
+    "SplitOne",
     "Theorem",
     "checked_corners",
     "checked_singularities",
@@ -47,6 +54,7 @@ __all__ = [
     "mirrored",
     "pair_at",
     "require_budget",
+    "require_places",
     "rotated",
     "split",
 ]

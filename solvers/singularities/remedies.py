@@ -189,3 +189,81 @@ class ChangeTurns(Remedy):
             As of the class.
         """
         return cls(f"take the turns {', '.join(map(str, turns))}", turns)
+
+
+@dataclass(frozen=True)
+class MergeTwo(Remedy):
+    """Make one singularity of two.
+
+    Parameters
+    ----------
+    words : str
+        As in `Remedy`.
+    one, other : int
+        Which singularities, from 0.
+
+    Examples
+    --------
+    >>> from solvers.errors import SingularityError
+    >>> from solvers.primitives import torus
+    >>> from solvers.singularities import MergeTwo, Singularity, require_places
+    >>> surface = torus(n=12)
+    >>> place = surface.point_at_vertex(0)
+    >>> try:
+    ...     require_places(surface, [Singularity(place, 3), Singularity(place, 5)])
+    ... except SingularityError as error:
+    ...     error.remedies == (MergeTwo("merge them", 0, 1),)
+    True
+    """
+
+    one: int
+    other: int
+
+
+@dataclass(frozen=True)
+class SplitOne(Remedy):
+    """Make two singularities of one.
+
+    Parameters
+    ----------
+    words : str
+        As in `Remedy`.
+    number : int
+        Which singularity, from 0.
+
+    Examples
+    --------
+    >>> from solvers.singularities import SplitOne
+    >>> SplitOne("split #1 into a 2 and a 3", 0).label
+    'Split #1 into a 2 and a 3'
+    """
+
+    number: int
+
+
+@dataclass(frozen=True)
+class MoveInside(Remedy):
+    """Move a singularity from the boundary to the nearest vertex inside.
+
+    Parameters
+    ----------
+    words : str
+        As in `Remedy`.
+    number : int
+        Which singularity, from 0.
+
+    Examples
+    --------
+    >>> from solvers.errors import SingularityError
+    >>> from solvers.primitives import disk
+    >>> from solvers.singularities import MoveInside, Singularity, require_places
+    >>> surface = disk(edge_length=0.2)
+    >>> rim = surface.point_at_vertex(int(surface.boundary_loops[0][0]))
+    >>> try:
+    ...     require_places(surface, [Singularity(rim, 3)])
+    ... except SingularityError as error:
+    ...     error.remedies == (MoveInside("move it inside", 0),)
+    True
+    """
+
+    number: int

@@ -10,9 +10,10 @@ from crossview.session.commands import (
 )
 from crossview.session.document import Document
 from crossview.session.mending import mend, mendings
+from solvers.errors import SingularityError
 from solvers.progress import run
 from solvers.remedies import ANISOTROPIC, RepairSurface
-from solvers.singularities import Singularity, far_points
+from solvers.singularities import Singularity, SplitOne, far_points, require_places
 from solvers.validity import ValidityError, make_valid
 
 
@@ -93,3 +94,23 @@ def test_far_points_are_distinct_vertices(builtin: str) -> None:
     assert len(np.unique(positions, axis=0)) == 12
     to_vertices = np.linalg.norm(positions[:, None] - surface.vertices, axis=2).min(axis=1)
     assert to_vertices.max() < 1e-12
+
+
+def test_singularities_at_wrong_places_are_mended() -> None:
+    together = [([0.3, 0.2, 0.0], 3), ([0.3, 0.2, 0.0], 3)]
+    for configuration in (
+        document({"builtin": "disk"}, ([1.0, 0.0, 0.0], 3), ([0.0, 0.0, 0.0], 1)),
+        document({"builtin": "disk"}, *together, ([-0.3, 0.0, 0.0], 2)),
+    ):
+        with pytest.raises(SingularityError) as refused:
+            require_places(configuration.surface, configuration.singularities)
+        (remedy,) = refused.value.remedies
+        mended = run(mend(configuration, remedy)).apply(configuration)
+        require_places(mended.surface, mended.singularities)
+        assert mended.budget.satisfied
+
+
+def test_a_valence_1_is_split() -> None:
+    one = document({"builtin": "disk"}, ([0.0, 0.0, 0.0], 1), ([0.5, 0.0, 0.0], 3))
+    mended = run(mend(one, SplitOne("split #1", 0))).apply(one)
+    assert [s.valence for s in mended.singularities] == [2, 3, 3]
