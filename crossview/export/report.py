@@ -24,6 +24,7 @@ from crossview.io.staged_files import staged
 from crossview.workflow.layout import misaligned_boundaries, separatrices
 from crossview.workflow.pipeline import Solution
 from solvers.errors import counted
+from solvers.features import FeatureCurve
 from solvers.kind_checks import all_of_kind
 from solvers.layouts import QuadLayout
 from solvers.quads import QuadMesh
@@ -82,6 +83,7 @@ def report(
         "isotropically_valid": solution.valid,
         "boundary_misalignment_degrees": _floats(np.degrees(_by_loop(solution))),
         "features": _features(solution),
+        "released_features": [_curve(solution, curve) for curve in solution.released.curves],
         "forced_corners": _forced_corners(solution),
         **_integrability(solution),
         "layout": _layout(solution, layout),
@@ -131,7 +133,16 @@ def summary(solution: Solution) -> str:
         said += "" if field.convergence.converged else ", not converged"
     else:
         said += f"E {field.energy:.3g}"
+    said += _released(solution)
     return said if verdict.status == "valid" else f"{said}. {verdict}"
+
+
+def _released(solution: Solution) -> str:
+    """How many feature curves are not followed, and why."""
+    released, every = len(solution.released.curves), len(solution.prepared.features.curves)
+    if not released:
+        return ""
+    return f", released {released} of {every} feature curves: no room for a quad beside them"
 
 
 def _defects(solution: Solution) -> str:
@@ -268,20 +279,22 @@ def _singularities(solution: Solution) -> list[dict[str, Any]]:
 
 def _features(solution: Solution) -> list[dict[str, Any]]:
     """The feature curves and by how much the crosses miss each."""
-    surface = solution.surface
     off = np.degrees(solution.field.feature_misalignment)
     return [
-        {
-            "start": _floats(surface.vertices[curve.vertices[0]]),
-            "end": _floats(surface.vertices[curve.vertices[-1]]),
-            "closed": curve.closed,
-            "length": float(
-                np.linalg.norm(np.diff(surface.vertices[curve.vertices], axis=0), axis=1).sum()
-            ),
-            "misalignment_degrees": float(angle),
-        }
+        {**_curve(solution, curve), "misalignment_degrees": float(angle)}
         for curve, angle in zip(solution.features.curves, off, strict=True)
     ]
+
+
+def _curve(solution: Solution, curve: FeatureCurve) -> dict[str, Any]:
+    """Where a feature curve is."""
+    places = solution.surface.vertices[curve.vertices]
+    return {
+        "start": _floats(places[0]),
+        "end": _floats(places[-1]),
+        "closed": curve.closed,
+        "length": float(np.linalg.norm(np.diff(places, axis=0), axis=1).sum()),
+    }
 
 
 def _forced_corners(solution: Solution) -> list[list[float]]:

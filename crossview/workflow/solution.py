@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from crossview.workflow.problem import Problem
-from solvers.features import Features
+from solvers.features import Features, no_features
 from solvers.fields import (
     CrossField,
     IntegratedField,
@@ -98,8 +98,15 @@ class Solution:
 
     @property
     def features(self) -> Features:
-        """The edges of `surface` that crosses are to follow."""
-        return self.prepared.features
+        """The edges of `surface` that crosses are to follow, less those released."""
+        integrated = self.integrated
+        return self.prepared.features if integrated is None else integrated.aligned.features
+
+    @property
+    def released(self) -> Features:
+        """Feature edges of `surface` that are not followed, for want of room for a quad."""
+        integrated = self.integrated
+        return no_features(self.surface) if integrated is None else integrated.aligned.released
 
     @cached_property
     def cut_graph(self) -> IntArray:

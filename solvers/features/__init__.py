@@ -4,5 +4,14 @@ from __future__ import annotations
 
 from solvers.features.dihedral import dihedral_angles, sharp_edges
 from solvers.features.edges import FeatureCurve, Features, no_features
+from solvers.features.sectors import Sectors, sectors_between
 
-__all__ = ["FeatureCurve", "Features", "dihedral_angles", "no_features", "sharp_edges"]
+__all__ = [
+    "FeatureCurve",
+    "Features",
+    "Sectors",
+    "dihedral_angles",
+    "no_features",
+    "sectors_between",
+    "sharp_edges",
+]

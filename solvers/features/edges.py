@@ -15,12 +15,12 @@ from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import connected_components, depth_first_order
 
 from solvers.errors import CrossviewError, listed
+from solvers.features.sectors import Sectors, sectors_between
 from solvers.frozen import freeze_arrays, frozen_property
 from solvers.kind_checks import one_of_kind
 from solvers.singularities.budget import TIE
 from solvers.surface.refinement import Refinement
-from solvers.surface.sectors import corner_sectors
-from solvers.surface.triangulation import FloatArray, IntArray, previous_halfedge
+from solvers.surface.triangulation import FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface, barycentric
 
 NARROW = np.radians(30)
@@ -156,20 +156,10 @@ class Features:
         """(n,) number of feature edges at each vertex."""
         return np.bincount(self.ends.reshape(-1), minlength=self.surface.n_vertices)
 
-    @frozen_property
-    def sectors(self) -> tuple[IntArray, FloatArray, IntArray]:
-        """What features and boundary cut the neighbourhoods of vertices into.
-
-        The sector of each halfedge's first corner (3 m,), the angle of each sector and its vertex.
-        """
-        t = self.surface.triangulation
-        blocked = np.zeros(len(t.twin), dtype=bool)
-        blocked[self.halfedges] = blocked[t.twin[self.halfedges]] = True
-        sector = corner_sectors(t, blocked)
-        angle = np.asarray(np.bincount(sector, t.angles.reshape(-1)), dtype=np.float64)
-        vertex = np.empty(len(angle), dtype=np.int64)
-        vertex[sector] = t.tail
-        return sector, angle, vertex
+    @cached_property
+    def sectors(self) -> Sectors:
+        """What they and the boundary cut the neighbourhoods of vertices into."""
+        return sectors_between(self.surface.triangulation, self.halfedges)
 
     @frozen_property
     def turns(self) -> FloatArray:
@@ -177,7 +167,7 @@ class Features:
 
         Half the difference of the angles on both sides: what is left when a cone is unfolded.
         """
-        _, angle, vertex = self.sectors
+        angle, vertex = self.sectors.angle, self.sectors.vertex
         passed = (self.degrees == 2) & ~self.surface.boundary_vertices
         of_passed = np.flatnonzero(passed[vertex])
         by_vertex = of_passed[np.argsort(vertex[of_passed], kind="stable")]
@@ -198,7 +188,7 @@ class Features:
         if len(self.edges) == 0:
             return ()
         links, at = self._links()
-        order, label = _along_chains(len(self.edges), links, self.turns[at])
+        order, label = along_chains(len(self.edges), links, self.turns[at])
         starts = np.flatnonzero(np.diff(label[order], prepend=-1) != 0)
         return tuple(self._curve(members) for members in np.split(order, starts[1:]))
 
@@ -259,17 +249,11 @@ class Features:
 
     def _spurs(self) -> IntArray:
         """Return the curves that are the shorter side of a narrow sector."""
-        sector, angle, _ = self.sectors
+        found = self.sectors
+        bounded = np.flatnonzero((found.angle < NARROW) & (found.start >= 0) & (found.end >= 0))
+        pairs = self.curve_of[np.stack([found.start[bounded], found.end[bounded]])]
+        pairs = pairs[:, pairs[0] != pairs[1]]
         t = self.surface.triangulation
-        curve = np.full(len(t.twin), -1, dtype=np.int64)
-        curve[self.halfedges] = curve[t.twin[self.halfedges]] = self.curve_of
-        # A sector reaches from the halfedge that starts it to the twin of that which ends it.
-        start, end = curve, curve[previous_halfedge(np.arange(len(curve)))]
-        sides = np.full((2, len(angle)), -1, dtype=np.int64)
-        for side, found in zip(sides, (start, end), strict=True):
-            side[sector[found >= 0]] = found[found >= 0]
-        narrow = (angle < NARROW) & (sides >= 0).all(axis=0) & (sides[0] != sides[1])
-        pairs = sides[:, narrow]
         lengths = t.lengths.reshape(-1)[self.halfedges]
         length = np.bincount(self.curve_of, lengths, len(self.curves))
         return np.unique(np.where(length[pairs[0]] < length[pairs[1]], pairs[0], pairs[1]))
@@ -320,11 +304,24 @@ def no_features(surface: TriSurface) -> Features:
     return Features(surface, np.empty(0, dtype=np.int64))
 
 
-def _along_chains(n: int, links: IntArray, turn: FloatArray) -> tuple[IntArray, IntArray]:
-    """Order n edges along the chains that links (l, 2) make of them.
+def along_chains(n: int, links: IntArray, turn: FloatArray) -> tuple[IntArray, IntArray]:
+    """Order edges along the chains that links make of them.
 
-    A closed chain is opened at the link with the largest turn. Returns the edges chain by chain,
-    and the number of each one's chain.
+    Parameters
+    ----------
+    n : int
+        Number of edges.
+    links : (l, 2) int array
+        Pairs that follow each other.
+    turn : (l,) float array
+        Of each pair; a closed chain is opened at its largest.
+
+    Returns
+    -------
+    order : (n,) int array
+        The edges, chain by chain.
+    label : (n,) int array
+        The number of each edge's chain.
     """
     label = _components(n, links)
     closed = np.bincount(label[links[:, 0]], minlength=n) == np.bincount(label, minlength=n)

@@ -15,6 +15,7 @@ from functools import cached_property
 import numpy as np
 
 from solvers.errors import CrossviewError
+from solvers.features.edges import Features, no_features
 from solvers.fields.crossfield import Convergence, CrossField
 from solvers.fields.feature_alignment import align_with_features
 from solvers.fields.integrability import Integrability
@@ -47,6 +48,9 @@ class AlignedField:
         Corner values of the harmonic correction that aligns it.
     integrability : Integrability
         With the aligned field as its initial field.
+    released : Features
+        Those that it does not follow: there is no room for a quad beside each of these and the
+        others.
     turns : tuple of int
         Quarter turns over each condition's path, besides those nearest to the isotropic field.
     turning : (m, 3) float array, optional
@@ -75,8 +79,14 @@ class AlignedField:
     isotropic: CrossField
     correction: FloatArray
     integrability: Integrability
+    released: Features
     turns: tuple[int, ...]
     turning: FloatArray | None = None
+
+    @property
+    def features(self) -> Features:
+        """Those that it follows."""
+        return self.integrability.discretization.features
 
     def partly(self, fraction: float) -> Integrability:
         """Return the problem around the field with only a fraction of the correction.
@@ -99,14 +109,14 @@ class AlignedField:
         """
         i = self.integrability
         t, features = i.triangulation, i.discretization.features
-        sector, angle, vertex = features.sectors
+        found = features.sectors
         # Over a corner, edge to edge, the crosses turn as from one midpoint to the other.
         turned = t.angles - (i.offsets[:, [2, 0, 1]] - i.offsets)
-        off = np.abs(np.bincount(sector, turned.reshape(-1)) - angle)
+        off = np.abs(found.total(turned) - found.angle)
         regular = features.degrees > 0
         for s in self.isotropic.singularities:
             regular[self.isotropic.surface.nearest_vertex(s.point)] = False
-        return np.unique(vertex[(off > FORCED) & regular[vertex]])
+        return np.unique(found.vertex[(off > FORCED) & regular[found.vertex]])
 
     @property
     def start(self) -> FloatArray:
@@ -245,9 +255,14 @@ def aligned_field(
         solver = solver.in_gauge(field.turn_to(like))
         field = solver.solve(singularities)
     conjugate, turning = field.H[solver.surface.faces], None
+    released = no_features(solver.surface)
     if len(d.features):
         found = align_with_features(solver.holonomy, conjugate, field.defects, turns)
-        turns, turning = found.turns.tolist(), found.turning
+        turns, turning, released = found.turns.tolist(), found.turning, found.released
+        if len(released):
+            d = found.discretization
+            solver = solver.following(d)
+            field = solver.solve(singularities)
     elif solver.gauge:
         turning = np.full(conjugate.shape, solver.gauge)
     chosen = tuple(turns or [0] * len(field.defects))
@@ -255,4 +270,6 @@ def aligned_field(
     integrability = Integrability(
         d, conjugate + correction, features=d.feature_halfedges, turning=turning
     )
-    return AlignedField(prepared, solver, field, correction, integrability, chosen, turning)
+    return AlignedField(
+        prepared, solver, field, correction, integrability, released, chosen, turning
+    )

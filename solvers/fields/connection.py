@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
@@ -15,6 +16,7 @@ from solvers.surface.homology import DualTree, handle_loops
 from solvers.surface.points import SurfacePoint
 from solvers.surface.triangulation import (
     QUARTER,
+    BoolArray,
     FloatArray,
     IntArray,
     IntrinsicTriangulation,
@@ -135,6 +137,19 @@ class Discretization:
         self.reference = moved[0] if starts else -1
         self.conditions = tuple(self._conditions(moved[: len(starts)], moved[len(starts) :]))
         self.tree = DualTree(self.triangulation, max(self.reference, 0) // 3, self.chain != 0)
+
+    def with_features(self, kept: BoolArray) -> Discretization:
+        """Return the same with some of the features.
+
+        Parameters
+        ----------
+        kept : (k,) bool array
+            Which of them.
+        """
+        other = copy(self)
+        other.features = Features(self.surface, self.features.edges[kept])
+        other.feature_halfedges = self.feature_halfedges[kept]
+        return other
 
     def _boundary_starts(self, own: IntrinsicTriangulation) -> list[int]:
         """Return the halfedge that leaves the first vertex of each boundary loop."""

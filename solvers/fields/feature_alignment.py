@@ -2,8 +2,8 @@
 
 Along each feature curve the field must be turned by known angles, up to whole quarter turns: one
 integer for each curve. Each holonomy condition has one more (another layout). In between, the turn
-spreads with the least int |grad|^2 (Crouzeix-Raviart). That energy is a quadratic form of the
-integers, whose minimum is sought by rounding one after the other (Babai 1986) and single steps.
+spreads with the least int |grad|^2 (Crouzeix-Raviart). The integers are those of a low energy that
+leave a quad in every sector between curves; where there are none, curves are released.
 """
 
 from __future__ import annotations
@@ -12,23 +12,20 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import cholesky, solve_triangular
 from scipy.sparse import csc_array
 
 from solvers.algebra.factorization import factorized
 from solvers.algebra.operators import corner_midpoint_offsets, crouzeix_raviart
+from solvers.features.dihedral import dihedral_angles
+from solvers.features.edges import Features
 from solvers.fields.connection import Discretization
+from solvers.fields.feature_integers import contradictions, nearest_integers, sector_rows
 from solvers.fields.holonomy import Holonomy
-from solvers.surface.triangulation import QUARTER, FloatArray, IntArray, wrap
+from solvers.fields.sector_quads import SectorQuads, sector_quads, turned_over_corners
+from solvers.surface.triangulation import QUARTER, BoolArray, FloatArray, IntArray
 
-RIDGE = 1e-9
-"""Added to the energy, relative: turning all of a closed surface's crosses costs nothing.
-
-Chosen, above rounding and below what differs between integers.
-"""
-
-MOST_STEPS = 1000
-"""Single steps of the integers after rounding at most. Chosen; each lowers the energy."""
+FREE_END = 0.5
+"""What is left of the value of a curve for each of its ends at no other curve. Chosen."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,6 +34,10 @@ class FeatureTurn:
 
     Parameters
     ----------
+    discretization : Discretization
+        With the features that are kept.
+    released : Features
+        Those that are not: no whole numbers leave a quad beside each of these and the kept ones.
     turns : (c,) int array
         Quarter turns to add over each holonomy condition's path.
     turning : (m, 3) float array
@@ -44,6 +45,8 @@ class FeatureTurn:
         halfedge; single-valued, 0 on the boundary; radians.
     """
 
+    discretization: Discretization
+    released: Features
     turns: IntArray
     turning: FloatArray
 
@@ -71,98 +74,88 @@ def align_with_features(
     -------
     FeatureTurn
     """
-    d = holonomy.discretization
+    every = holonomy.discretization
+    angles, corners = _turned(holonomy, conjugate, defects)
+    if turns is not None:
+        given = np.concatenate([[1.0], turns])[:, None]
+        angles, corners = angles @ given, corners @ given
+    kept, quads = _kept(every, angles, corners)
+    d = every.with_features(kept)
+    released = Features(every.surface, every.features.edges[~kept])
+    if not kept.any():
+        chosen = np.zeros(len(defects)) if turns is None else np.asarray(turns)
+        still = np.zeros_like(conjugate)
+        return FeatureTurn(d, released, chosen.astype(np.int64), still)
     filling = _Filling(d)
-    wanted, by_turn = _wanted(holonomy, conjugate, defects)
-    by_curve = QUARTER * np.eye(len(d.features.curves))[d.features.curve_of]
-    given = np.zeros(len(defects)) if turns is None else np.asarray(turns, dtype=np.float64)
-    wanted = wanted + by_turn @ given
-    changes = by_curve if turns is not None else np.column_stack([by_curve, by_turn])
+    wanted, changes = quads.turning[:, 0], quads.by_number
     energy = filling.energy(np.column_stack([wanted, changes]))
     if turns is None and len(defects):
         # The harmonic part of the field turns by quarters less the defects.
         harmonic = np.linalg.inv(holonomy.harmonic_energy)
         energy[-len(defects) :, -len(defects) :] += QUARTER**2 * harmonic
         energy[-len(defects) :, 0] -= QUARTER * harmonic @ defects
-    integers = nearest_integers(energy[1:, 1:], energy[1:, 0])
-    chosen = given if turns is not None else integers[by_curve.shape[1] :]
+    integers = nearest_integers(energy[1:, 1:], energy[1:, 0], sector_rows(quads)[1])
+    chosen = integers[quads.chains.count :] if turns is None else np.asarray(turns)
     turning = filling.everywhere(wanted + changes @ integers)
-    return FeatureTurn(chosen.astype(np.int64), turning)
+    return FeatureTurn(d, released, chosen.astype(np.int64), turning)
 
 
-def nearest_integers(matrix: FloatArray, linear: FloatArray) -> FloatArray:
-    """Return whole numbers x with a low x . matrix x + 2 linear . x.
-
-    The largest of the terms is rounded first, the others are solved for anew; then single numbers
-    are changed by one as long as that helps.
-
-    Parameters
-    ----------
-    matrix : (p, p) float array
-        Symmetric, positive semi-definite.
-    linear : (p,) float array
-
-    Returns
-    -------
-    (p,) float array
-    """
-    p = len(linear)
-    if p == 0:
-        return np.zeros(0)
-    order = np.argsort(np.diag(matrix), kind="stable")
-    ridged = matrix[np.ix_(order, order)] + RIDGE * np.diag(matrix).max() * np.eye(p)
-    upper = cholesky(ridged)
-    best = -solve_triangular(upper, linear[order], trans="T")
-    rounded = np.zeros(p)
-    for i in range(p - 1, -1, -1):
-        rounded[i] = np.rint((best[i] - upper[i, i + 1 :] @ rounded[i + 1 :]) / upper[i, i])
-    x = np.empty(p)
-    x[order] = rounded
-    for _ in range(MOST_STEPS):
-        slope = 2 * (matrix @ x + linear)
-        gain = np.diag(matrix) - np.abs(slope)
-        j = int(np.argmin(gain))
-        if gain[j] >= -RIDGE * np.diag(matrix).max():
-            break
-        x[j] -= np.sign(slope[j])
-    return x
-
-
-def _wanted(
+def _turned(
     holonomy: Holonomy, conjugate: FloatArray, defects: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Return what to turn the field by on features, and that for a quarter turn of each condition.
+    """Return angles (k, 1 + c) and turns over corners (m, 3, 1 + c), as `sector_quads` takes them.
 
-    (k,) and (k, c), radians, without jumps along each curve.
+    Of the field that is aligned with boundaries, and how they grow with the conditions' turns.
     """
     d = holonomy.discretization
-    cotangents = d.triangulation.cotangents
+    t, h = d.triangulation, d.feature_halfedges
     offsets = corner_midpoint_offsets(
-        cotangents, conjugate + holonomy.harmonic_correction(-defects)
+        t.cotangents, conjugate + holonomy.harmonic_correction(-defects)
     )
-    columns = [d.feature_angles(d.walk(offsets), offsets)]
-    h = d.feature_halfedges
+    angles = [d.feature_angles(d.walk(offsets), offsets)]
+    corners = [t.angles - turned_over_corners(offsets)]
     still = d.walk(np.zeros_like(conjugate))
     for turn in QUARTER * np.eye(len(defects)):
-        offsets = corner_midpoint_offsets(cotangents, holonomy.harmonic_correction(turn))
-        columns.append((d.walk(offsets) - still)[h // 3] + offsets.reshape(-1)[h])
-    along = [_without_jumps(-column, d) for column in columns]
-    return along[0], np.array(along[1:]).reshape(len(defects), len(h)).T
+        offsets = corner_midpoint_offsets(t.cotangents, holonomy.harmonic_correction(turn))
+        angles.append((d.walk(offsets) - still)[h // 3] + offsets.reshape(-1)[h])
+        corners.append(-turned_over_corners(offsets))
+    return np.stack(angles, axis=1), np.stack(corners, axis=2)
 
 
-def _without_jumps(angle: FloatArray, discretization: Discretization) -> FloatArray:
-    """Return angles of feature edges, changed by quarter turns so that none jumps on its curve."""
-    curves = discretization.features.curves
-    order = np.concatenate([curve.members for curve in curves])
-    sizes = np.array([len(curve.members) for curve in curves])
-    first = np.cumsum(sizes) - sizes
-    along = angle[order]
-    steps = wrap(np.diff(along, prepend=0.0), QUARTER)
-    steps[first] = 0.0
-    steps = np.cumsum(steps)
-    smooth = np.empty_like(along)
-    smooth[order] = steps + np.repeat(along[first] - steps[first], sizes)
-    return np.asarray(smooth)
+def _kept(
+    discretization: Discretization, angles: FloatArray, corners: FloatArray
+) -> tuple[BoolArray, SectorQuads]:
+    """Return which features to keep so that every sector may have a quad, and their quads.
+
+    Of the curves beside sectors that contradict each other the one of least worth goes.
+    """
+    t, h = discretization.triangulation, discretization.feature_halfedges
+    worth = t.lengths.reshape(-1)[h] * (
+        1 + dihedral_angles(discretization.surface)[discretization.features.edges]
+    )
+    kept = np.ones(len(h), dtype=bool)
+    while True:
+        among = np.flatnonzero(kept)
+        quads = sector_quads(t, h[among], angles[among], corners)
+        of, rows = sector_rows(quads)
+        found = contradictions(rows)
+        if not found:
+            return kept, quads
+        value, number = _values(quads, worth[among]), quads.chains.number
+        for sectors in (of[each] for each in found):
+            beside = np.concatenate([quads.sectors.start[sectors], quads.sectors.end[sectors]])
+            concerned = np.unique(number[beside[beside >= 0]])
+            kept[among[number == concerned[np.argmin(value[concerned])]]] = False
+
+
+def _values(quads: SectorQuads, worth: FloatArray) -> FloatArray:
+    """Return the value of each chain: the sum of its edges' worth, half for each free end."""
+    s, number = quads.sectors, quads.chains.number
+    free = s.start[(s.start == s.end) & (s.start >= 0)]
+    return np.asarray(
+        np.bincount(number, worth)
+        * FREE_END ** np.bincount(number[free], minlength=number.max() + 1)
+    )
 
 
 class _Filling:

@@ -131,6 +131,18 @@ class IsotropicSolver:
         other.gauge = self.gauge + real_number("the angle", angle)
         return other
 
+    def following(self, discretization: Discretization) -> IsotropicSolver:
+        """Return the same solver for fewer features.
+
+        Parameters
+        ----------
+        discretization : Discretization
+            Its own, but with those features.
+        """
+        other = copy(self)
+        other.discretization = discretization
+        return other
+
     def solve(self, singularities: Iterable[Singularity]) -> CrossField:
         """Return the field of a configuration, by one back-substitution and one walk.
 

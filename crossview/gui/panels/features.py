@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
 from crossview.session.session import Session
 from crossview.session.state import SessionState
 from crossview.view.texts import count, degrees
+from crossview.workflow.solution import Solution
 
 USUAL_ANGLE = 40.0
 """Degrees that sharp edges bend by, if nothing else is said. Chosen."""
@@ -114,14 +115,28 @@ def _found(state: SessionState) -> str:
     if trial is None and field is not None:
         off = float(np.degrees(np.abs(field.feature_misalignment).max(initial=0.0)))
         text += f", off by up to {degrees(off)}" if off > state.tolerance else ", followed"
+    if trial is None and (released := _released(state)):
+        text += f"; {count(released, 'curve')} released: no room for a quad beside them"
     if trial is None and (forced := _forced(state)):
         text += f"; singularities do not fit at {count(forced, 'vertex', 'vertices')}"
     return text
 
 
+def _released(state: SessionState) -> int:
+    """Return how many curves the field shown does not follow for want of room."""
+    solution = _shown(state)
+    return 0 if solution is None else len(solution.released.curves)
+
+
 def _forced(state: SessionState) -> int:
     """Return at how many vertices the field shown must turn a corner that no angle asks for."""
-    solution = state.solution
-    if solution is None or solution.integrated is None or state.field is not solution.field:
+    solution = _shown(state)
+    if solution is None or solution.integrated is None:
         return 0
     return len(solution.integrated.aligned.forced_corners)
+
+
+def _shown(state: SessionState) -> Solution | None:
+    """Return the solution whose field is shown."""
+    solution = state.solution
+    return solution if solution is not None and state.field is solution.field else None

@@ -10,11 +10,13 @@ import numpy as np
 import pytest
 
 from crossview.cases.model import Builtin, Case, PlacedFeatures
+from crossview.export.report import report, summary
 from crossview.workflow.marking import Marking
-from crossview.workflow.pipeline import solve_case
+from crossview.workflow.pipeline import Pipeline, solve_case
 from crossview.workflow.problem import Problem
 from solvers.primitives import BUILTIN
 from solvers.progress import run
+from solvers.singularities.budget import Singularity
 from tests.command_line import CaseFile, Crossview
 from tests.real_surfaces import PATHS
 
@@ -178,3 +180,28 @@ def test_the_torus_of_the_gallery_misses_its_marked_curve(
     assert ran.json["index_sum"] == ran.json["index_required"] == 0
     assert ran.json["max_closing_error"] < 1e-9
     assert ran.json["verdict"] == "impossible"
+
+
+def test_a_curve_without_room_is_released_and_named() -> None:
+    """Five sharp rays cannot all run through a vertex of four quads."""
+    surface = BUILTIN["disk"](edge_length=0.12)
+    degree = np.bincount(surface.edges.reshape(-1))
+    depth = np.linalg.norm(surface.vertices, axis=1)
+    centre = int(np.argmin(np.where(degree == 6, depth, np.inf)))
+    spokes = np.flatnonzero((surface.edges == centre).any(axis=1))
+    at = [surface.closest_point([x, y, 0.0]) for x in (-0.6, 0.6) for y in (-0.6, 0.6)]
+    threes = [Singularity(point, 3) for point in at]
+    problem = Problem(
+        surface, threes, method="aligned", marking=Marking(marked=frozenset(spokes[:5].tolist()))
+    )
+    solution = run(Pipeline().solve(problem))
+    assert "released 1 of 5 feature curves" in summary(solution)
+    found = report(solution)
+    assert len(found["features"]) == 4
+    (released,) = found["released_features"]
+    assert released["length"] == pytest.approx(
+        np.linalg.norm(np.subtract(released["start"], released["end"]))
+    )
+    kept = [curve["length"] for curve in found["features"]]
+    assert released["length"] <= min(kept) + 1e-9
+    assert max(abs(curve["misalignment_degrees"]) for curve in found["features"]) < 1e-6

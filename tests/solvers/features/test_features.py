@@ -12,7 +12,7 @@ from solvers.features.dihedral import sharp_edges
 from solvers.features.edges import Features, no_features
 from solvers.fields.aligned import IntegratedField, aligned_field
 from solvers.fields.crossfield import CrossField
-from solvers.fields.feature_alignment import nearest_integers
+from solvers.fields.feature_integers import nearest_integers
 from solvers.fields.integrable import anisotropic_field
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.fields.natural import natural_singularities
