@@ -92,18 +92,23 @@ class JsonField:
         """The error that blames this value."""
         return CaseError(what, self.where, advice)
 
-    def object(self, required: Iterable[str], optional: Iterable[str]) -> dict[str, JsonField]:
-        """The members of an object that has all the `required` and only known keys."""
+    def object(
+        self, required: Iterable[str], optional: Iterable[str], retired: Iterable[str] = ()
+    ) -> dict[str, JsonField]:
+        """The members of an object that has all the `required` and only known keys.
+
+        Those that are `retired`, of files from before, are left out.
+        """
         if not isinstance(self.value, dict):
             raise self.error(f"expected an object {{...}}, found {shown(self.value)}")
-        known = {*required, *optional}
+        known, gone = {*required, *optional}, {*retired}
         for key in self.value:
-            if key not in known:
+            if key not in known | gone:
                 raise self.error(f'unknown key "{key}"', nearest(key, known))
         for key in required:
             if key not in self.value:
                 raise self.error(f'the key "{key}" is missing')
-        return self.members()
+        return {key: member for key, member in self.members().items() if key not in gone}
 
     def members(self) -> dict[str, JsonField]:
         """The members of an object, whatever their names."""

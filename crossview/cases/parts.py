@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, ClassVar
 
 from crossview.cases.compounds import Either, ListOf
 from crossview.cases.json_values import CaseError, known_word
@@ -112,6 +112,9 @@ class PlacedFeatures:
 class Options:
     """What may be tuned."""
 
+    RETIRED: ClassVar = ("verify",)
+    """Keys of files from before, read over: growth under refinement tells less than topology."""
+
     tolerance_degrees: float = field(
         default=TOLERANCE_DEGREES,
         metadata=key(
@@ -168,12 +171,6 @@ class Options:
             ),
             "Size map that the anisotropic method follows as closely as the singularities allow: "
             "one size, or two (along x and across), for each vertex of the surface given.",
-        ),
-    )
-    verify: bool = field(
-        default=False,
-        metadata=key(
-            Flag(), "Solve again on a once refined mesh, and judge by how much the aspect grows."
         ),
     )
 

@@ -145,10 +145,11 @@ class Record(Shape):
         return isinstance(value, self.kind)
 
     def read(self, entry: JsonField, base: Path) -> Any:
-        """Return the dataclass; keys that it does not have are told with the nearest."""
+        """Return the dataclass; keys that it never had are told with the nearest."""
         keys, optional = keys_of(self.kind), defaults_of(self.kind)
         required = [name for name in keys if name not in optional]
-        members = entry.object(required, optional)
+        retired = getattr(self.kind, "RETIRED", ())
+        members = entry.object(required, optional, retired)
         return self.kind(**{n: keys[n].shape.read(members[n], base) for n in members})
 
     def write(self, value: Any, base: Path) -> dict[str, Any]:
@@ -169,7 +170,9 @@ class Record(Shape):
             properties[name] = key.shape.schema() | {"description": key.doc}
             if name in default and key.shape.holds(default[name]):
                 properties[name]["default"] = key.shape.write(default[name], Path())
-        required = [name for name in properties if name not in default]
+        required = [name for name in keys_of(self.kind) if name not in default]
+        for name in getattr(self.kind, "RETIRED", ()):
+            properties[name] = {"deprecated": True, "description": "Of older files; read over."}
         found: dict[str, Any] = {"type": "object", "properties": properties}
         if required:
             found["required"] = required

@@ -223,8 +223,8 @@ def _integrability(solution: Solution) -> dict[str, Any]:
         "iterations": max(len(history) - 1, 0),
         "converged": field.convergence.converged,
         "max_log_aspect": field.max_log_aspect,
-        "aspect_growth": solution.growth,
         "flips": solution.inverted,
+        "wrong_windings": solution.wrong_windings,
         "verdict": solution.verdict.status,
         "verdict_reason": str(solution.verdict),
     }

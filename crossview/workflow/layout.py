@@ -6,15 +6,34 @@ from collections.abc import Generator
 
 import numpy as np
 
+from crossview.workflow.problem import Problem
 from crossview.workflow.solution import Solution
 from solvers.errors import CrossviewError
 from solvers.fields import IntegratedField, aligned_field
 from solvers.layouts import LayoutError, QuadLayout, Separatrices, quad_layout
 from solvers.progress import Progress
+from solvers.singularities import existence, require_budget
 from solvers.surface import BoolArray, FloatArray, IntArray
 
 SOON = 50_000
 """Triangles up to which a layout takes seconds at most."""
+
+
+def require_possible(problem: Problem) -> None:
+    """Refuse a problem that no quad mesh solves, by topology alone.
+
+    Raises
+    ------
+    SingularityError
+        It misses the index budget.
+    LayoutError
+        It names the theorem and what leads to the nearest problem that is possible.
+    """
+    surface, placed, corners = problem.surface, problem.singularities, problem.chosen_corners
+    require_budget(surface, placed, corners)
+    known = existence(surface, placed, corners, problem.chosen_turns)
+    if known.theorem is not None:
+        raise LayoutError(f"no quads: {str(known.theorem).rstrip('.')}", remedies=known.remedies)
 
 
 def layout(solution: Solution) -> Generator[Progress, None, QuadLayout]:
@@ -26,7 +45,7 @@ def layout(solution: Solution) -> Generator[Progress, None, QuadLayout]:
         The field misses a boundary or is not integrable, there is no quad mesh with these
         singularities, or triangles are inverted in the map.
     """
-    _require_possible(solution)
+    _require_trusted(solution)
     yield Progress("aligning with the boundaries", 0.0)
     return (yield from quad_layout(_integrated(solution), solution.verdict))
 
@@ -62,17 +81,19 @@ def misaligned_boundaries(solution: Solution) -> tuple[IntArray, FloatArray]:
     return loops, surface.vertices[first].reshape(-1, 3)
 
 
-def _require_possible(solution: Solution) -> None:
+def _require_trusted(solution: Solution) -> None:
     """Refuse what the verdict refuses; boundaries and curves that the field misses are counted."""
     verdict, field = solution.verdict, solution.field
     if not verdict.refused:
         return
-    boundaries = solution.limits.missed(field.boundary_misalignment)
-    curves = solution.limits.missed(field.feature_misalignment)
+    missed = solution.limits.missed
+    boundaries, curves = missed(field.boundary_misalignment), missed(field.feature_misalignment)
     what = f"no quads: {verdict.reason.rstrip('.')}"
-    if verdict.status != "unknown" and boundaries.any():
+    if verdict.status == "impossible" or not verdict.remedies:
+        pass
+    elif boundaries.any():
         what = _misses(boundaries, "a boundary", "boundaries", field.boundary_misalignment)
-    elif verdict.status == "suspect" and curves.any():
+    elif curves.any() and not missed(field.defects).any():
         what = _misses(curves, "a feature curve", "feature curves", field.feature_misalignment)
     raise LayoutError(what, remedies=verdict.remedies)
 

@@ -11,7 +11,8 @@ from typing import TypeVar
 import numpy as np
 
 from crossview.cases.model import Case
-from crossview.workflow.methods import growth_when_refined, integrate, inverted_triangles
+from crossview.workflow.layout import require_possible
+from crossview.workflow.methods import integrate, map_faults
 from crossview.workflow.problem import Problem, problems_of
 from crossview.workflow.sizes import read_sizes, refined_sizes
 from crossview.workflow.solution import Solution
@@ -144,17 +145,11 @@ def _integrated(
     aligned: AlignedField, problem: Problem, sizes: FloatArray | None, seconds: dict[str, float]
 ) -> Solving:
     """Solve by a method that starts from the aligned field."""
-    options = problem.options
-    iteration = integrate(problem.method, aligned, options, sizes)
+    iteration = integrate(problem.method, aligned, problem.options, sizes)
     with _timed(seconds, "solve"):
-        integrated = yield from between(iteration, 0.3, 0.6 if options.verify else 0.9)
-    growth = None
-    if options.verify and problem.method != "aligned":
-        with _timed(seconds, "verify"):
-            again = growth_when_refined(integrated, options, sizes)
-            growth = yield from between(again, 0.6, 0.9)
+        integrated = yield from between(iteration, 0.3, 0.9)
     yield Progress("judging", 0.9)
-    return _integrated_solution(problem, integrated, seconds, growth)
+    return _integrated_solution(problem, integrated, seconds)
 
 
 @contextmanager
@@ -168,13 +163,24 @@ def of_component(number: int | None) -> Iterator[None]:
         raise
 
 
-def solve_case(case: Case) -> Generator[Progress, None, tuple[Solution, ...]]:
+def solve_case(case: Case, quads: bool = False) -> Generator[Progress, None, tuple[Solution, ...]]:
     """Read a case and solve it.
+
+    Parameters
+    ----------
+    case : Case
+    quads : bool
+        Whether quads are wanted: what topology forbids is refused before any solve.
 
     Returns
     -------
     tuple of Solution
         One, or if the case asks for all components one for each, the largest first.
+
+    Raises
+    ------
+    CrossviewError
+        As `problems_of` and `Pipeline.solve`, or quads are wanted and impossible.
     """
     yield Progress("reading the surface", 0.0)
     seconds: dict[str, float] = {}
@@ -183,19 +189,18 @@ def solve_case(case: Case) -> Generator[Progress, None, tuple[Solution, ...]]:
     solutions = []
     for number, problem in enumerate(problems):
         with of_component(number if len(problems) > 1 else None):
+            if quads:
+                require_possible(problem)
             solution = yield from Pipeline().solve(problem)
         solutions.append(replace(solution, seconds={**seconds, **solution.seconds}))
     return tuple(solutions)
 
 
 def _integrated_solution(
-    problem: Problem,
-    integrated: IntegratedField,
-    seconds: dict[str, float],
-    growth: float | None = None,
+    problem: Problem, integrated: IntegratedField, seconds: dict[str, float]
 ) -> Solution:
     aligned, field = integrated.aligned, integrated.field
-    return _solution(problem, aligned.prepared, aligned.solver, field, seconds, integrated, growth)
+    return _solution(problem, aligned.prepared, aligned.solver, field, seconds, integrated)
 
 
 def _solution(
@@ -205,7 +210,6 @@ def _solution(
     field: CrossField,
     seconds: dict[str, float],
     integrated: IntegratedField | None = None,
-    growth: float | None = None,
 ) -> Solution:
     """Put together what a method found with the holonomy and the verdict."""
     with _timed(seconds, "holonomy"):
@@ -213,8 +217,9 @@ def _solution(
     with _timed(seconds, "verdict"):
         tolerance = float(np.radians(problem.options.tolerance_degrees))
         limits = Limits.on(solver.holonomy, tolerance)
-        inverted = inverted_triangles(integrated, limits)
-        verdict = judge(field, inverted, growth, limits)
+        inverted, wound = map_faults(integrated, limits)
+        turns = None if integrated is None else integrated.aligned.turns
+        verdict = judge(field, inverted, limits, wrong_windings=wound or 0, turns=turns)
     return Solution(
         problem,
         prepared,
@@ -225,8 +230,8 @@ def _solution(
         integrated,
         limits,
         verdict,
-        growth,
         inverted,
+        wound,
     )
 
 

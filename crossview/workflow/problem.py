@@ -124,6 +124,11 @@ class Problem:
         """The corners, the automatic ones if none are given."""
         return default_corners(self.surface) if self.corners is None else self.corners
 
+    @property
+    def chosen_turns(self) -> tuple[int, ...] | None:
+        """The turns that its method takes; the isotropic field has its own."""
+        return None if self.method == "isotropic" else self.options.turns
+
     @cached_property
     def features(self) -> Features:
         """The edges that crosses are to follow."""

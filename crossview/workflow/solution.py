@@ -47,10 +47,10 @@ class Solution:
         Within which the problem's options call a field valid.
     verdict : Verdict
         What the field is worth, and what helps.
-    growth : float, or None
-        Of int |grad s|^2 on a once refined mesh; None if not asked for.
     inverted : int, or None
         Inverted triangles of the seamless map; None where the field has none.
+    wrong_windings : int, or None
+        Vertices around which the map's angles do not add up to the quads there.
 
     Examples
     --------
@@ -75,8 +75,8 @@ class Solution:
     integrated: IntegratedField | None
     limits: Limits
     verdict: Verdict
-    growth: float | None = None
     inverted: int | None = None
+    wrong_windings: int | None = None
 
     def __post_init__(self) -> None:
         freeze_arrays(self)

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
 from solvers.algebra.factorization import RESIDUAL_BOUND
+from solvers.errors import counted
 from solvers.fields.crossfield import CrossField
 from solvers.fields.holonomy import Holonomy
 from solvers.number_checks import real_number, whole_number
 from solvers.remedies import ANISOTROPIC, MAKE_VALID, Remedy, in_words
+from solvers.singularities.topology import existence
 from solvers.surface.triangulation import BoolArray, FloatArray
 
 TOLERANCE_DEGREES = 0.01
@@ -34,13 +37,7 @@ Chosen: real surfaces reach 1e-9.
 """
 
 EXTREME_ASPECT = 3.0
-"""|H2 - H1| beyond which quads are too stretched to trust: twenty to one. Chosen."""
-
-GROWTH = 1.2
-"""Growth of int |grad s|^2 on a once refined mesh that tells a forced field, a factor.
-
-Chosen between what was measured: 1.05 to 1.11 where a field is possible, 1.35 to 1.42 where not.
-"""
+"""|H2 - H1| beyond which quads are stretched: twenty to one. Chosen."""
 
 
 @dataclass(frozen=True)
@@ -108,8 +105,9 @@ class Verdict:
 
     Parameters
     ----------
-    status : {"valid", "suspect", "impossible", "unknown"}
-        The judgement; "unknown" where the field is not solved well enough to be judged.
+    status : {"valid", "stretched", "not found", "impossible"}
+        "stretched" of an injective map with extreme aspect, "not found" where there is none or
+        the field is not what it should be, "impossible" where a theorem forbids it.
     reason : str
         Why, in a sentence.
     remedies : tuple of Remedy, optional
@@ -120,12 +118,12 @@ class Verdict:
     Examples
     --------
     >>> from solvers.fields import Verdict
-    >>> verdict = Verdict("suspect", "1 triangle is inverted in the seamless map.")
+    >>> verdict = Verdict("not found", "1 triangle is inverted in the seamless map.")
     >>> print(verdict)
     1 triangle is inverted in the seamless map.
     """
 
-    status: Literal["valid", "suspect", "impossible", "unknown"]
+    status: Literal["valid", "stretched", "not found", "impossible"]
     reason: str
     remedies: tuple[Remedy, ...] = ()
     refused: bool = False
@@ -140,10 +138,12 @@ class Verdict:
 def judge(
     field: CrossField,
     inverted: int | None = None,
-    growth: float | None = None,
     limits: Limits = STRICT,
+    *,
+    wrong_windings: int = 0,
+    turns: Sequence[int] | None = None,
 ) -> Verdict:
-    """Judge a field by topology, closing, alignment, integrability, its map, aspect and growth.
+    """Judge a field by topology, closing, alignment, integrability, its map and its aspect.
 
     Parameters
     ----------
@@ -151,10 +151,13 @@ def judge(
         What to judge.
     inverted : int, optional
         Inverted triangles in its seamless map; None where there is no such map.
-    growth : float, optional
-        int |grad s|^2 on a once refined mesh over that of the field.
     limits : Limits, optional
         What is valid.
+    wrong_windings : int, optional
+        Vertices of the map around which the angles of the images do not add up to their quads.
+    turns : sequence of int, optional
+        Quarter turns of the field over each holonomy condition besides those nearest to the
+        isotropic field.
 
     Returns
     -------
@@ -164,11 +167,11 @@ def judge(
     Raises
     ------
     CrossviewError
-        Unless the number and the growth are numbers from 0.
+        Unless the numbers are whole numbers from 0.
 
     Notes
     -----
-    That a torus with one valence 3 and one valence 5 has no quads: Izmestiev et al. 2013.
+    `solvers.singularities.decide` tells what is impossible.
 
     Examples
     --------
@@ -186,37 +189,35 @@ def judge(
     """
     if inverted is not None:
         inverted = whole_number("the number of inverted triangles", inverted, 0)
-    if growth is not None:
-        growth = real_number("the growth", growth, 0)
-    indices = sorted(s.index for s in field.singularities)
-    surface = field.surface
-    if surface.genus == 1 and not surface.boundary_loops and indices == [-1, 1]:
-        return Verdict(
-            "impossible",
-            "No quadrangulation of a torus has one valence 3, one valence 5 and nothing else "
-            "(Izmestiev et al. 2013).",
-            refused=True,
-        )
+    wrong_windings = whole_number("the number of wrong windings", wrong_windings, 0)
+    known = existence(field.surface, field.singularities, field.corners, turns)
+    if known.theorem is not None:
+        return Verdict("impossible", str(known.theorem), known.remedies, refused=True)
+    return (
+        _judge_solve(field)
+        or _judge_alignment(field, limits)
+        or _judge_integrability(field, limits)
+        or _judge_map(field, inverted, wrong_windings)
+    )
+
+
+def _judge_solve(field: CrossField) -> Verdict | None:
     if not field.residual <= RESIDUAL_BOUND:
         return Verdict(
-            "unknown",
-            f"Not known: the linear system is solved to a residual of {field.residual:.1g} only; "
+            "not found",
+            f"The linear system is solved to a residual of {field.residual:.1g} only; "
             "look for triangles without area.",
             refused=True,
         )
     if not field.max_closing_error <= CLOSED:
         apart = np.degrees(field.max_closing_error)
         return Verdict(
-            "unknown",
-            f"Not known: crosses of two neighbouring triangles differ by {apart:.2g} degrees more "
+            "not found",
+            f"The crosses of two neighbouring triangles differ by {apart:.2g} degrees more "
             "than quarter turns.",
             refused=True,
         )
-    return (
-        _judge_alignment(field, limits)
-        or _judge_integrability(field, limits)
-        or _judge_quality(field, inverted, growth)
-    )
+    return None
 
 
 def _judge_alignment(field: CrossField, limits: Limits) -> Verdict | None:
@@ -224,15 +225,15 @@ def _judge_alignment(field: CrossField, limits: Limits) -> Verdict | None:
     if limits.missed(field.defects).any():
         worst = _worst(field.defects)
         reason = f"No isotropic field is aligned: a holonomy defect is {worst:.3g} degrees."
-        return Verdict("impossible", reason, both, refused=True)
+        return Verdict("not found", reason, both, refused=True)
     if limits.missed(field.boundary_misalignment).any():
         off = _worst(field.boundary_misalignment)
         reason = f"The field is {off:.3g} degrees off a boundary."
-        return Verdict("suspect", reason, both, refused=True)
+        return Verdict("not found", reason, both, refused=True)
     if limits.missed(field.feature_misalignment).any():
         off = _worst(field.feature_misalignment)
         reason = f"The field is {off:.3g} degrees off a feature curve."
-        return Verdict("suspect", reason, (ANISOTROPIC,), refused=True)
+        return Verdict("not found", reason, (ANISOTROPIC,), refused=True)
     return None
 
 
@@ -240,26 +241,27 @@ def _judge_integrability(field: CrossField, limits: Limits) -> Verdict | None:
     if field.energy <= limits.energy:
         if field.convergence.converged:
             return None
-        return Verdict("suspect", f"The iteration has not converged: E = {field.energy:.2g}.")
+        return Verdict("not found", f"The iteration has not converged: E = {field.energy:.2g}.")
     reason = f"The field is aligned but not integrable: E = {field.energy:.2g}."
     if field.energy <= NEARLY_INTEGRABLE:
-        return Verdict("suspect", reason)
-    return Verdict("suspect", reason, (MAKE_VALID, ANISOTROPIC), refused=True)
+        return Verdict("not found", reason)
+    return Verdict("not found", reason, (MAKE_VALID, ANISOTROPIC), refused=True)
 
 
-def _judge_quality(field: CrossField, inverted: int | None, growth: float | None) -> Verdict:
+def _judge_map(field: CrossField, inverted: int | None, wrong_windings: int) -> Verdict:
     """Judge what is aligned and integrable."""
     if inverted:
         which = "1 triangle is" if inverted == 1 else f"{inverted} triangles are"
-        return Verdict("suspect", f"{which} inverted in the seamless map.")
+        return Verdict("not found", f"{which} inverted in the seamless map.")
+    if wrong_windings:
+        which = counted(wrong_windings, "vertex")
+        return Verdict(
+            "not found",
+            f"Around {which} the angles of the seamless map do not add up to the quads there.",
+        )
     if field.max_log_aspect > EXTREME_ASPECT:
         ratio = np.exp(field.max_log_aspect)
-        return Verdict("suspect", f"The two sizes differ by a factor of {ratio:.0f}.")
-    if growth is not None and growth > GROWTH:
-        return Verdict(
-            "suspect",
-            f"The aspect does not settle: int |grad s|^2 grows by {growth - 1:.0%} when refined.",
-        )
+        return Verdict("stretched", f"The two sizes differ by a factor of {ratio:.0f}.")
     mapped = "" if inverted is None else ", and its map has no inverted triangle"
     return Verdict("valid", f"The field is aligned and integrable{mapped}.")
 

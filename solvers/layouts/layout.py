@@ -147,7 +147,8 @@ def quad_layout(
     >>> layout.patches, layout.conforming
     (5, True)
     """
-    verdict = judge(integrated.field) if verdict is None else verdict
+    if verdict is None:
+        verdict = judge(integrated.field, turns=integrated.aligned.turns)
     if verdict.refused:
         raise LayoutError(verdict.reason.rstrip("."), remedies=verdict.remedies)
     yield Progress("fitting the seamless map", 0.0)

@@ -56,8 +56,8 @@ FLAT_ANNULUS = Theorem(
 """A flat annulus with straight boundaries is a cylinder. From theory."""
 
 ZIGZAG = Theorem(
-    "Corners that turn to and fro never bring a boundary back to the line it began on, as the "
-    "straight boundary opposite does, where no singularity is between them",
+    "Corners that turn to and fro shift a boundary off its line, which a straight boundary "
+    "opposite does not allow without singularities",
     "developing the boundaries",
 )
 """See `solvers.singularities.topology.decide`. From theory."""

@@ -14,7 +14,7 @@ from crossview.view.colors import BAD, GOOD, UNSURE, WAITING
 from crossview.view.texts import aspect, energies
 from crossview.workflow.pipeline import Solution
 
-COLORS = {"valid": GOOD, "suspect": UNSURE, "impossible": BAD, "unknown": UNSURE}
+COLORS = {"valid": GOOD, "stretched": UNSURE, "not found": UNSURE, "impossible": BAD}
 """Of verdicts."""
 
 STOPPED = "Not converged: this is the last iterate before it was stopped."

@@ -47,7 +47,6 @@ OPTIONS = st.fixed_dictionaries(
             st.lists(st.lists(POSITIVE, min_size=2, max_size=2), min_size=1, max_size=4),
             st.from_regex(r"[a-z]{1,8}\.(npy|txt)", fullmatch=True),
         ),
-        "verify": st.booleans(),
     },
 )
 SINGULARITIES = st.fixed_dictionaries(

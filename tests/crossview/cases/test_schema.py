@@ -34,7 +34,6 @@ FULL: dict[str, Any] = {
         "turns": [0, -1],
         "proximal_weight": 0.001,
         "sizes": [[1, 2], [1.5, 0.5]],
-        "verify": True,
     },
 }
 VALUES: list[Any] = [
@@ -120,7 +119,7 @@ def test_each_default_is_what_it_says() -> None:
     """Given or left out, a key with its default is the same case."""
     options = SCHEMA["properties"]["options"]["properties"]
     given = {name: key["default"] for name, key in options.items() if "default" in key}
-    assert set(given) == {"tolerance_degrees", "refine", "repair", "proximal_weight", "verify"}
+    assert set(given) == {"tolerance_degrees", "refine", "repair", "proximal_weight"}
     bare = Case.from_json({"surface": "torus"})
     assert Case.from_json({"surface": "torus", "options": given}) == bare
     own = {name: key["default"] for name, key in SCHEMA["properties"].items() if "default" in key}

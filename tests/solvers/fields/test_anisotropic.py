@@ -335,15 +335,15 @@ def test_verdicts_name_their_reason() -> None:
     start, field = solved("annulus")
     assert judge(field, 0).status == "valid"
     assert "3 triangles are inverted" in judge(field, 3).reason
-    assert "grows by 50%" in judge(field, 0, growth=1.5).reason
     unaligned = judge(start.isotropic)
-    assert unaligned.status == "impossible"
+    assert unaligned.status == "not found"
     assert f"{np.degrees(np.abs(start.isotropic.defects[0])):.3g} degrees" in unaligned.reason
     merely_aligned = IntegratedField(start, start.start).field
     assert "not integrable" in judge(merely_aligned).reason
     for residual in (1e-9, np.nan):
         unsolved = judge(replace(field, residual=residual), 0)
-        assert (unsolved.status, unsolved.reason[:9]) == ("unknown", "Not known")
+        assert unsolved.status == "not found"
+        assert "residual" in unsolved.reason
 
 
 @pytest.mark.parametrize("name", ["annulus", "torus_with_hole"])
