@@ -13,7 +13,7 @@ from crossview.workflow.loading import load_surfaces, mended
 from crossview.workflow.problem import Problem, problems_on
 from solvers.errors import SurfaceError
 from solvers.repair import Repaired, merge_coincident
-from solvers.singularities import index_budget
+from solvers.singularities import existence, index_budget
 from solvers.surface import array_problems, problems
 
 
@@ -82,6 +82,7 @@ def _problem(error: SurfaceError) -> dict[str, Any]:
 def _component(problem: Problem) -> dict[str, Any]:
     surface, corners = problem.surface, problem.chosen_corners
     budget = index_budget(surface, problem.singularities, corners)
+    known = existence(surface, problem.singularities, corners, problem.chosen_turns)
     quality = surface.triangle_quality
     closed = [np.append(loop, loop[0]) for loop in surface.boundary_loops]
     return {
@@ -112,5 +113,10 @@ def _component(problem: Problem) -> dict[str, Any]:
             "satisfied": budget.satisfied,
             "message": budget.message,
             "remedies": [remedy.words for remedy in budget.remedies],
+        },
+        "existence": {
+            "answer": known.answer,
+            "theorem": None if known.theorem is None else str(known.theorem),
+            "remedies": [remedy.words for remedy in known.remedies],
         },
     }

@@ -57,7 +57,10 @@ def _lines(name: str, found: dict[str, Any]) -> Iterator[str]:
             f"triangle quality {quality['min']:.2f} to {quality['max']:.2f}, "
             f"mean {quality['mean']:.2f}"
         )
-        yield f"{indent}{piece['index_budget']['message']}, corners {_corners(piece['corners'])}"
+        budget, known = piece["index_budget"], piece["existence"]
+        yield f"{indent}{budget['message']}, corners {_corners(piece['corners'])}"
+        if budget["satisfied"] and known["theorem"] is not None:
+            yield f"{indent}impossible: {known['theorem']} To mend it: {known['remedies'][0]}."
 
 
 def _boundary(lengths: list[float]) -> str:

@@ -93,7 +93,7 @@ def _solved_into(
     results: Results = []
     if wanted is not None:
         require_closing(case.singularities)
-    solutions = yield from solve_case(case)
+    solutions = yield from solve_case(case, wanted is not None)
     for number, solution in enumerate(solutions):
         if wanted is None:
             results.append((solution, (yield from layout_soon(solution)), None))

@@ -7,6 +7,7 @@ from typing import Protocol
 
 from crossview.session.document import Document
 from crossview.workflow.marking import Marking
+from solvers.errors import counted
 from solvers.singularities import Singularity
 from solvers.surface import SurfacePoint
 
@@ -146,6 +147,39 @@ class ReplaceSingularities:
         if self.automatic_corners:
             document = document.with_automatic_corners()
         return document.with_singularities(self.singularities)
+
+
+@dataclass(frozen=True)
+class SetCorners:
+    """Give corners other indices; those of index 0 are none."""
+
+    changed: tuple[tuple[int, int], ...]
+
+    @property
+    def name(self) -> str:
+        """Name of the step."""
+        return f"change {counted(len(self.changed), 'corner')}"
+
+    def apply(self, document: Document) -> Document:
+        """Return the document with them changed."""
+        corners = {**document.corners, **dict(self.changed)}
+        return document.with_corners({vertex: k for vertex, k in corners.items() if k})
+
+
+@dataclass(frozen=True)
+class SetTurns:
+    """Let crosses turn otherwise over the holonomy conditions."""
+
+    turns: tuple[int, ...]
+
+    @property
+    def name(self) -> str:
+        """Name of the step."""
+        return f"take the turns {', '.join(map(str, self.turns))}"
+
+    def apply(self, document: Document) -> Document:
+        """Return the document with these turns."""
+        return document.with_turns(self.turns)
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,13 @@ from functools import cached_property
 
 from crossview.cases.model import Case
 from crossview.workflow.problem import Problem
-from solvers.singularities import IndexBudget, Singularity, index_budget
+from solvers.singularities import (
+    Existence,
+    IndexBudget,
+    Singularity,
+    existence,
+    index_budget,
+)
 from solvers.surface import TriSurface
 
 
@@ -58,9 +64,28 @@ class Document:
         """The index sum against 4 chi (Poincare-Hopf)."""
         return index_budget(self.surface, self.singularities, self.corners)
 
+    @cached_property
+    def existence(self) -> Existence:
+        """Whether any quad mesh has its singularities, corners and turns, by topology."""
+        return self.existence_with(self.singularities)
+
+    def existence_with(self, singularities: Sequence[Singularity]) -> Existence:
+        """Whether any quad mesh has other singularities in their place."""
+        turns = self.problem.chosen_turns
+        return existence(self.surface, singularities, self.corners, turns)
+
     def with_singularities(self, singularities: Sequence[Singularity]) -> Document:
         """Return the same document with other singularities."""
         return replace(self, problem=replace(self.problem, singularities=tuple(singularities)))
+
+    def with_corners(self, corners: Mapping[int, int]) -> Document:
+        """Return the same document with other corners."""
+        return replace(self, problem=replace(self.problem, corners=corners), corners=corners)
+
+    def with_turns(self, turns: Sequence[int]) -> Document:
+        """Return the same document with other quarter turns over the holonomy conditions."""
+        options = replace(self.problem.options, turns=tuple(turns))
+        return replace(self, problem=replace(self.problem, options=options))
 
     def with_automatic_corners(self) -> Document:
         """Return the same document with corners chosen from the boundary's angles."""

@@ -38,7 +38,7 @@ from solvers.features import Features
 from solvers.fields import CrossField
 from solvers.layouts import Separatrices
 from solvers.progress import Progress
-from solvers.singularities import IndexBudget, Singularity, index_budget
+from solvers.singularities import Existence, IndexBudget, Singularity, index_budget
 from solvers.surface import FloatArray, IntArray, SurfacePoint, TriSurface
 
 
@@ -236,6 +236,15 @@ class Facts:
         if self.trial is None or self.trial.drag:
             return self.document.budget
         return index_budget(self.document.surface, self.trial.singularities, self.document.corners)
+
+    @property
+    def existence(self) -> Existence | None:
+        """Whether any quad mesh has what the trial would make of the configuration."""
+        if self.document is None:
+            return None
+        if self.trial is None or self.trial.drag:
+            return self.document.existence
+        return self.document.existence_with(self.trial.singularities)
 
     @property
     def defects(self) -> FloatArray | None:

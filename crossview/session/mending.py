@@ -1,4 +1,4 @@
-"""What may be done about an error or a missed index budget, carried out as commands."""
+"""What may be done about an error or what is impossible, carried out as commands."""
 
 from __future__ import annotations
 
@@ -13,14 +13,25 @@ from crossview.session.commands import (
     Command,
     RemoveSingularities,
     ReplaceSingularities,
+    SetCorners,
+    SetTurns,
 )
 from crossview.session.document import Document
-from crossview.session.rearrangements import distribute, merge, move_inside, split_one
+from crossview.session.rearrangements import (
+    add_pair_somewhere,
+    distribute,
+    merge,
+    move_inside,
+    split_one,
+)
 from solvers.progress import Progress
 from solvers.remedies import Remedy, UseMethod
 from solvers.singularities import (
     AddMissing,
+    AddPair,
+    ChangeCorners,
     ChangeOne,
+    ChangeTurns,
     MergeTwo,
     MoveInside,
     RemoveOne,
@@ -37,11 +48,11 @@ class DistributeMissing(Remedy):
 
 
 def mendings(document: Document) -> tuple[Remedy, ...]:
-    """Return what would bring the index sum nearer to the required one, the most likely first."""
+    """Return what would meet the index budget, then what makes quads possible, best first."""
     budget = document.budget
     missing = abs(budget.missing)
     if missing == 0:
-        return ()
+        return document.existence.remedies
     found = [remedy for remedy in budget.remedies if _usual(remedy)]
     if missing > 1:
         found.insert(0, AddMissing.of(3 if budget.missing > 0 else 5, 1))
@@ -80,16 +91,29 @@ def mend(document: Document, remedy: Remedy) -> Generator[Progress, None, Comman
             return AddSingularities(tuple(Singularity(point, valence) for point in points))
         case DistributeMissing():
             return (yield from distribute(document))
-        case ChangeOne(number=number, valence=valence):
-            return ChangeValence(number, valence)
+        case AddPair():
+            return (yield from add_pair_somewhere(document))
         case MergeTwo(one=one, other=other):
             return merge(document, one, other)
         case SplitOne(number=number):
             return split_one(document, number)
         case MoveInside(number=number):
             return move_inside(document, number)
+        case _:
+            return _at_once(remedy)
+
+
+def _at_once(remedy: Remedy) -> Command:
+    """Return the command of a remedy that measures nothing on the surface."""
+    match remedy:
+        case ChangeOne(number=number, valence=valence):
+            return ChangeValence(number, valence)
         case RemoveOne(number=number):
             return RemoveSingularities(frozenset({number}))
+        case ChangeCorners(corners=corners):
+            return SetCorners(corners)
+        case ChangeTurns(turns=turns):
+            return SetTurns(turns)
         case PlaceAnew(singularities=singularities, step=step):
             return ReplaceSingularities(singularities, f"make valid, {step}")
         case UseMethod(method=method):

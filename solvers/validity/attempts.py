@@ -22,6 +22,8 @@ from solvers.remedies import ANISOTROPIC, Remedy
 from solvers.singularities.budget import Singularity, checked_singularities, require_budget
 from solvers.singularities.farthest import far_points
 from solvers.singularities.pairs import pair_at
+from solvers.singularities.theorems import Theorem
+from solvers.singularities.topology import existence
 from solvers.surface.refinement import LEVELS
 from solvers.surface.triangulation import QUARTER, FloatArray
 from solvers.surface.trisurface import TriSurface
@@ -98,7 +100,7 @@ class ValidityError(SingularityError):
     ...     run(make_valid(surface, pair))
     ... except ValidityError as error:
     ...     print(error.what)
-    a torus with one valence 3 and one valence 5 is never valid, wherever they are
+    the configuration is never valid: no quadrangulation of a torus has one valence 3, ...
     """
 
     def __init__(
@@ -180,19 +182,22 @@ class _Attempt:
         self._surface = solver.surface
         self._guide = solver.holonomy
         self._corners = corners
+        self._index = solver.corners
         self._levels = levels
 
     def make_valid(self, start: tuple[Singularity, ...]) -> Generator[Progress, None, Moved]:
         """Take the nearest layout that can be reached, or say what helps."""
-        if _impossible(self._surface, start):
-            why, remaining = None, self._guide.defects(start)
-        else:
-            try:
-                return (yield from self._nearest(start, _near(self._guide.defects(start))))
-            except Blocked as blocked:
-                why, remaining = blocked.why, blocked.remaining
+        conditions = self._guide.conditions
+        known = existence(self._surface, start, self._index)
+        if known.theorem is not None:
+            remedies = yield from self._remedies(start, None)
+            raise _refusal(known.theorem, self._guide.defects(start), conditions, remedies)
+        try:
+            return (yield from self._nearest(start, _near(self._guide.defects(start))))
+        except Blocked as blocked:
+            why, remaining = blocked.why, blocked.remaining
         remedies = yield from self._remedies(start, why)
-        raise _refusal(why, remaining, self._guide.conditions, remedies)
+        raise _refusal(why, remaining, conditions, remedies)
 
     def _nearest(
         self, start: tuple[Singularity, ...], aims: Sequence[tuple[int, ...]]
@@ -259,12 +264,6 @@ class _Attempt:
         return _sorted(defects, (turns for turns in aims if turns not in tried))[:FARTHER]
 
 
-def _impossible(surface: TriSurface, singularities: Sequence[Singularity]) -> bool:
-    """Whether this is a torus with one valence 3 and one valence 5 (Izmestiev et al. 2013)."""
-    indices = sorted(s.index for s in singularities)
-    return surface.genus == 1 and not surface.boundary_loops and indices == [-1, 1]
-
-
 def _near(defects: FloatArray) -> list[tuple[int, ...]]:
     """Return the quarter turns to aim at, the nearest first: on the defects' own side."""
     sides = [int(np.sign(r)) or 1 for r in defects]
@@ -295,16 +294,16 @@ def _around(condition: Condition) -> str:
 
 
 def _refusal(
-    why: Obstacle | None,
+    why: Obstacle | Theorem,
     defects: FloatArray,
     conditions: Sequence[Condition],
     remedies: tuple[Remedy, ...],
 ) -> ValidityError:
     worst = int(np.argmax(np.abs(defects)))
-    if why is None:
-        what = "a torus with one valence 3 and one valence 5 is never valid, wherever they are"
+    if isinstance(why, Theorem):
+        what = f"the configuration is never valid: {why.statement[:1].lower()}{why.statement[1:]}"
         advice = "" if remedies else "add a pair of singularities"
-        return ValidityError(what, "Izmestiev et al. 2013", advice, worst, remedies)
+        return ValidityError(what, why.source, advice, worst, remedies)
     return ValidityError(
         f"the configuration cannot be made valid by moving its singularities: {why.value}",
         f"{conditions[worst].label}, {np.degrees(abs(defects[worst])):.3g} degrees off",

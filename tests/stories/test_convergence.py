@@ -10,9 +10,9 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QPushButton
 
 from crossview.cases.gallery import path_of
-from crossview.cases.model import Case
+from crossview.cases.model import Builtin, Case, Options, PlacedCorner
 from crossview.session.state import SessionState
-from crossview.view.colors import BAD, GOOD, WAITING, valence_color
+from crossview.view.colors import BAD, GOOD, UNSURE, WAITING, valence_color
 from tests.windowing import Hand
 
 Cases = Callable[[str], str]
@@ -169,7 +169,7 @@ def test_make_valid_and_undo(hand: Hand, isotropic_case: Cases) -> None:
     hand.open(isotropic_case("annulus-near"))
     panel = hand.window.validity_panel
     before = hand.state.document
-    assert (panel.rows[0].color, hand.window.convergence_panel.color) == (BAD, BAD)
+    assert (panel.rows[0].color, hand.window.convergence_panel.color) == (BAD, UNSURE)
     assert panel.make_valid.isEnabled()
     on_the_way = []
     hand.window.session.observers.append(
@@ -289,3 +289,60 @@ def test_the_torus_that_is_never_valid_is_not_said_to_be(hand: Hand) -> None:
     panel = hand.window.convergence_panel
     assert panel.verdict.text().startswith("No quadrangulation of a torus has one valence 3")
     assert panel.color == BAD
+
+
+def test_what_is_impossible_is_said_before_any_solve_and_one_click_mends_it(
+    hand: Hand, tmp_path: Path
+) -> None:
+    """A valence 4 does not hide it; the theorem is named; a pair leads to what is possible."""
+    path = tmp_path / "torus.json"
+    case = Case.load(path_of("torus-35"))
+    four = replace(case.singularities[0], position=(0.0, 1.4, 0.0), valence=4)
+    replace(case, singularities=(*case.singularities, four)).save(path)
+    hand.open(path)
+    panel = hand.window.validity_panel
+    assert panel.budget.color == GOOD
+    assert panel.existence.color == BAD
+    assert panel.existence.isVisibleTo(panel)
+    assert "Izmestiev" in panel.note.text()
+    (button,) = panel.buttons
+    assert button.text() == "Add a pair of valences 3 and 5"
+    button.click()
+    hand.wait(lambda: hand.state.solved)
+    assert [s.valence for s in hand.state.singularities] == [3, 5, 4, 3, 5]
+    assert not panel.existence.isVisibleTo(panel)
+    assert not panel.buttons
+    hand.trigger("undo")
+    assert panel.existence.isVisibleTo(panel)
+
+
+def test_corners_to_and_fro_are_mended_by_taking_them_away(hand: Hand, tmp_path: Path) -> None:
+    path = tmp_path / "annulus.json"
+    corners = (PlacedCorner((1.0, 0.0, 0.0), 1), PlacedCorner((-1.0, 0.0, 0.0), -1))
+    Case(Builtin("annulus", {"n": 24}), (), corners).save(path)
+    hand.open(path)
+    panel = hand.window.validity_panel
+    assert panel.existence.isVisibleTo(panel)
+    pair, straight = panel.buttons
+    assert pair.text() == "Add a pair of valences 3 and 5"
+    straight.click()
+    hand.wait(lambda: hand.state.solved)
+    assert hand.state.document is not None
+    assert not hand.state.document.corners
+    assert not panel.existence.isVisibleTo(panel)
+    assert hand.state.undo_name == "change 2 corners"
+    assert hand.window.convergence_panel.color == GOOD
+
+
+def test_turns_of_a_cylinder_are_mended_by_taking_none(hand: Hand, tmp_path: Path) -> None:
+    path = tmp_path / "annulus.json"
+    options = Options(turns=(1,))
+    Case(Builtin("annulus", {"n": 24}), (), None, "anisotropic", options).save(path)
+    hand.open(path)
+    panel = hand.window.validity_panel
+    assert panel.existence.isVisibleTo(panel)
+    assert hand.window.convergence_panel.color == BAD
+    panel.buttons[0].click()
+    hand.wait(lambda: hand.state.solved)
+    assert not panel.existence.isVisibleTo(panel)
+    assert hand.window.convergence_panel.color == GOOD

@@ -1,4 +1,4 @@
-"""The Validity panel: the index budget and one row per holonomy condition, always current."""
+"""The Validity panel: budget, what topology forbids, a row per holonomy condition; current."""
 
 from __future__ import annotations
 
@@ -106,13 +106,17 @@ class ValidityPanel(QWidget):
         super().__init__(parent)
         self._session = session
         self.make_valid = _button(make_valid)
-        self.budget = VerdictRow()
+        self.budget, self.existence = VerdictRow(), VerdictRow()
         font = self.budget.text.font()
         font.setBold(True)
-        self.budget.text.setFont(font)
+        for row in (self.budget, self.existence):
+            row.text.setFont(font)
         self.note = QLabel()
         self.note.setWordWrap(True)
         self.note.setContentsMargins(30, 0, 8, 4)
+        whole = QSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
+        whole.setHeightForWidth(True)
+        self.note.setSizePolicy(whole)
         self.note.setForegroundRole(self.palette().ColorRole.PlaceholderText)
         self._offers = QVBoxLayout()
         self._offers.setContentsMargins(30, 0, 8, 6)
@@ -140,6 +144,7 @@ class ValidityPanel(QWidget):
         layout.setContentsMargins(0, 4, 0, 4)
         layout.setSpacing(0)
         layout.addWidget(self.budget)
+        layout.addWidget(self.existence)
         layout.addWidget(self.note)
         layout.addLayout(self._offers)
         layout.addWidget(scroll, 1)
@@ -166,8 +171,13 @@ class ValidityPanel(QWidget):
         budget = state.budget
         if budget is None:
             self.budget.show_verdict(WAITING, "Open a surface to begin", "")
+            self.existence.hide()
             self.note.hide()
             return
+        known = state.existence
+        theorem = known.theorem if known is not None and budget.satisfied else None
+        self.existence.show_verdict(BAD, "Impossible: no quad mesh has these", "")
+        self.existence.setVisible(theorem is not None)
         self.budget.show_verdict(
             GOOD if budget.satisfied else BAD,
             f"Index sum {signed(budget.index_sum).lstrip('+')}"
@@ -180,9 +190,12 @@ class ValidityPanel(QWidget):
         )
         previewing = state.trial is not None and not state.trial.drag
         text = "if placed here" if previewing else ""
-        if not budget.satisfied and not previewing:
+        if theorem is not None:
+            text = f"{theorem} {text}".rstrip()
+        elif not budget.satisfied and not previewing:
             text = "No field until the indices add up."
         self.note.setText(text)
+        self.note.setToolTip(text)
         self.note.setVisible(bool(text))
 
     def _show_offers(self, offers: tuple[Remedy, ...]) -> None:

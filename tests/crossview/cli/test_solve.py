@@ -201,3 +201,23 @@ def test_solving_again_replaces_the_results_and_leaves_other_files(
     assert crossview("solve", "square", "-o", out).status == 0
     assert {p.name for p in out.iterdir()} == FILES | {"mine.txt"}
     assert json.loads((out / "report.json").read_text())["isotropically_valid"]
+
+
+def test_impossible_quads_are_refused_before_any_solve(
+    crossview: Crossview, case_file: CaseFile, tmp_path: Path
+) -> None:
+    """The corners of an annulus to and fro: the theorem is named, and nothing written."""
+    corners = [{"position": [x, 0, 0], "index": k} for x, k in ((1, 1), (-1, -1))]
+    path = case_file({"builtin": "annulus", "n": 24}, corners=corners)
+    ran = crossview("solve", path, "-o", tmp_path / "out", "--quads")
+    assert ran.status == 2
+    assert "to and fro" in ran.err
+    assert "add a pair" in ran.err
+    assert not (tmp_path / "out").exists()
+    told = crossview("info", path)
+    assert "impossible: Corners that turn to and fro" in told.out
+    found = crossview("info", path, "--json").json["components"][0]["existence"]
+    assert found["answer"] == "impossible"
+    assert found["remedies"] == ["add a pair of valences 3 and 5", "take the 2 corners away"]
+    ran = crossview("solve", path, "-o", tmp_path / "out", "--json")
+    assert ran.json["verdict"] == "impossible"
