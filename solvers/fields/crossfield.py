@@ -125,15 +125,6 @@ class CrossField:
         return np.asarray(np.abs(2 * self.half_log_aspect.mean(axis=1)))
 
     @cached_property
-    def aspect_roughness(self) -> float:
-        """The integral of |grad s|^2 for s = (H2 - H1) / 2.
-
-        If the field is forced it grows without bound under refinement.
-        """
-        t = self.surface.triangulation
-        return float(t.areas @ (t.gradients(self.half_log_aspect) ** 2).sum(axis=1))
-
-    @cached_property
     def max_log_aspect(self) -> float:
         """Largest |H2 - H1| away from the triangles around singularities."""
         singular = np.zeros(self.surface.n_vertices, dtype=bool)

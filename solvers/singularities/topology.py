@@ -12,6 +12,8 @@ from dataclasses import dataclass
 from itertools import accumulate
 from typing import Literal
 
+import numpy as np
+
 from solvers.errors import SingularityError
 from solvers.number_checks import whole_number, whole_numbers
 from solvers.remedies import Remedy
@@ -229,10 +231,9 @@ def existence(
     placed = checked_singularities(singularities)
     turning = {vertex: k for vertex, k in checked_corners(surface, corners).items() if k}
     indices = [s.index for s in placed if s.index]
-    around = [
-        [turning[vertex] for vertex in loop.tolist() if vertex in turning]
-        for loop in surface.boundary_loops
-    ]
+    index = np.zeros(surface.n_vertices, dtype=np.int64)
+    index[list(turning)] = list(turning.values())
+    around = [index[loop][index[loop] != 0].tolist() for loop in surface.boundary_loops]
     plain = None if indices or turning else turns
     answer, theorem = decide(surface.genus, around, indices, plain)
     remedies: tuple[Remedy, ...] = ()
