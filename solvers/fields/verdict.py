@@ -14,6 +14,7 @@ from solvers.fields.crossfield import CrossField
 from solvers.fields.holonomy import Holonomy
 from solvers.number_checks import real_number, whole_number
 from solvers.remedies import ANISOTROPIC, MAKE_VALID, Remedy, in_words
+from solvers.singularities.theorems import Theorem
 from solvers.singularities.topology import existence
 from solvers.surface.triangulation import BoolArray, FloatArray
 
@@ -114,6 +115,8 @@ class Verdict:
         What may be done about it.
     refused : bool, optional
         Whether no layout is made of such a field; never of a valid one.
+    theorem : Theorem, optional
+        What forbids any quad mesh; of what is impossible, and of nothing else.
 
     Examples
     --------
@@ -127,6 +130,7 @@ class Verdict:
     reason: str
     remedies: tuple[Remedy, ...] = ()
     refused: bool = False
+    theorem: Theorem | None = None
 
     def __str__(self) -> str:
         """Return the reason and what may be done, in a sentence."""
@@ -192,7 +196,8 @@ def judge(
     wrong_windings = whole_number("the number of wrong windings", wrong_windings, 0)
     known = existence(field.surface, field.singularities, field.corners, turns)
     if known.theorem is not None:
-        return Verdict("impossible", str(known.theorem), known.remedies, refused=True)
+        reason, theorem = str(known.theorem), known.theorem
+        return Verdict("impossible", reason, known.remedies, refused=True, theorem=theorem)
     return (
         _judge_solve(field)
         or _judge_alignment(field, limits)

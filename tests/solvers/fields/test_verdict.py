@@ -18,6 +18,7 @@ from solvers.progress import run
 from solvers.remedies import MakeValid, UseMethod
 from solvers.singularities.budget import Singularity
 from solvers.singularities.remedies import ChangeTurns
+from solvers.singularities.theorems import FLAT_ANNULUS, FLAT_TORUS
 
 
 def turned_pairs(off: float) -> AlignedField:
@@ -165,11 +166,15 @@ def test_an_upright_map_that_winds_wrongly_around_a_vertex_is_not_valid(field: C
 
 def test_what_topology_forbids_is_impossible_whatever_the_field_is_like() -> None:
     """The theorem is named, and what leads on; turns make a flat torus and cylinder impossible."""
-    for surface, turns in ((torus(n=12), [1, 0]), (annulus(n=24), [-1])):
+    for surface, turns, theorem in (
+        (torus(n=12), [1, 0], FLAT_TORUS),
+        (annulus(n=24), [-1], FLAT_ANNULUS),
+    ):
         aligned = aligned_field(prepare(surface, ()), turns)
         forced = IntegratedField(aligned, aligned.start).field
         verdict = judge(forced, 0, turns=turns)
         assert (verdict.status, verdict.refused) == ("impossible", True)
+        assert verdict.theorem is theorem
         (remedy,) = (r for r in verdict.remedies if isinstance(r, ChangeTurns))
         back = aligned_field(prepare(surface, ()), remedy.turns)
         found = IntegratedField(back, back.start).field
