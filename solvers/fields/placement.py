@@ -69,7 +69,8 @@ def placed_singularities(
         Of a singularity.
     fewest : bool, optional
         Whether indices of opposite signs are to cancel wherever they are, those first whose
-        cancelling lets the energy rise least; else only near ones that let it fall.
+        cancelling lets the energy rise least; else only near ones that let it fall, and none where
+        there are features, which hold what this energy does not know of.
 
     Returns
     -------
@@ -84,7 +85,8 @@ def placed_singularities(
     """
     placement = _Placement(surface, index, features)
     placement.spread(4 - most_valence, lacking)
-    placement.cancel(anywhere=fewest)
+    if fewest or not len(features):
+        placement.cancel(anywhere=fewest)
     return placement.singularities
 
 

@@ -10,6 +10,7 @@ from solvers.surface.homology import HandleLoops, handle_loops
 from solvers.surface.points import SurfacePoint
 from solvers.surface.refinement import LEVELS, Refinement, refine_at, refine_everywhere
 from solvers.surface.sectors import corner_sectors
+from solvers.surface.symmetries import Isometry, isometries
 from solvers.surface.triangulation import (
     QUARTER,
     BoolArray,
@@ -31,6 +32,7 @@ __all__ = [
     "HandleLoops",
     "IntArray",
     "IntrinsicTriangulation",
+    "Isometry",
     "Located",
     "Refinement",
     "Segments",
@@ -43,6 +45,7 @@ __all__ = [
     "cut_graph",
     "handle_loops",
     "intrinsic_delaunay",
+    "isometries",
     "problems",
     "refine_at",
     "refine_everywhere",

@@ -14,6 +14,7 @@ from solvers.fields.principal import principal_crosses
 from solvers.primitives import BUILTIN
 from solvers.progress import Progress, relayed, run
 from solvers.singularities.budget import default_corners, index_budget
+from solvers.surface.symmetries import isometries
 from solvers.surface.triangulation import wrap
 from solvers.surface.trisurface import TriSurface
 from tests.solvers.suite import SURFACES
@@ -191,3 +192,20 @@ def test_every_sector_between_features_has_a_quad() -> None:
     (hub,) = (s for s in found if s.point == surface.point_at_vertex(middle))
     assert hub.valence == len(spokes)
     assert index_budget(surface, found, default_corners(surface)).satisfied
+
+
+@pytest.mark.parametrize("method", ["mbo", "ginzburg-landau"])
+@pytest.mark.parametrize("name", ["disk", "ellipsoid", "double_torus"])
+def test_symmetric_surfaces_have_symmetric_singularities(name: str, method: str) -> None:
+    surface = BUILTIN["ellipsoid"](subdivisions=3) if name == "ellipsoid" else SURFACES[name]()
+    group = isometries(surface)
+    assert len(group) > 1
+    for seed in (0, 1):
+        found = run(natural_singularities(surface, method, seed))
+        assert found
+        places = surface.positions([s.point for s in found])
+        valences = np.array([s.valence for s in found])
+        for isometry in group:
+            gaps = np.linalg.norm(isometry.image(places)[:, None] - places, axis=2)
+            gaps[valences[:, None] != valences] = np.inf
+            assert gaps.min(axis=1).max() < 1e-6 * surface.diagonal
