@@ -82,7 +82,7 @@ def _problem(error: SurfaceError) -> dict[str, Any]:
 def _component(problem: Problem) -> dict[str, Any]:
     surface, corners = problem.surface, problem.chosen_corners
     budget = index_budget(surface, problem.singularities, corners)
-    known = existence(surface, problem.singularities, corners, problem.chosen_turns)
+    known = existence(surface, problem.singularities, corners, problem.known_turns)
     quality = surface.triangle_quality
     closed = [np.append(loop, loop[0]) for loop in surface.boundary_loops]
     return {

@@ -167,19 +167,20 @@ class SetCorners:
 
 
 @dataclass(frozen=True)
-class SetTurns:
-    """Let crosses turn otherwise over the holonomy conditions."""
+class AddTurns:
+    """Let crosses turn more, or less, over the holonomy conditions."""
 
-    turns: tuple[int, ...]
+    by: tuple[int, ...]
 
     @property
     def name(self) -> str:
         """Name of the step."""
-        return f"take the turns {', '.join(map(str, self.turns))}"
+        return "change the turns"
 
     def apply(self, document: Document) -> Document:
-        """Return the document with these turns."""
-        return document.with_turns(self.turns)
+        """Return the document with these turns added."""
+        before = document.problem.options.turns or (0,) * len(self.by)
+        return document.with_turns([a + b for a, b in zip(before, self.by, strict=True)])
 
 
 @dataclass(frozen=True)

@@ -71,7 +71,7 @@ class Document:
 
     def existence_with(self, singularities: Sequence[Singularity]) -> Existence:
         """Whether any quad mesh has other singularities in their place."""
-        turns = self.problem.chosen_turns
+        turns = self.problem.known_turns
         return existence(self.surface, singularities, self.corners, turns)
 
     def with_singularities(self, singularities: Sequence[Singularity]) -> Document:

@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from crossview.session.commands import (
     MAX_VALENCE,
     AddSingularities,
+    AddTurns,
     ChangeValence,
     ChooseMethod,
     Command,
     RemoveSingularities,
     ReplaceSingularities,
     SetCorners,
-    SetTurns,
 )
 from crossview.session.document import Document
 from crossview.session.rearrangements import (
@@ -112,8 +112,8 @@ def _at_once(remedy: Remedy) -> Command:
             return RemoveSingularities(frozenset({number}))
         case ChangeCorners(corners=corners):
             return SetCorners(corners)
-        case ChangeTurns(turns=turns):
-            return SetTurns(turns)
+        case ChangeTurns(by=by):
+            return AddTurns(by)
         case PlaceAnew(singularities=singularities, step=step):
             return ReplaceSingularities(singularities, f"make valid, {step}")
         case UseMethod(method=method):

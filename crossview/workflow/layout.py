@@ -31,7 +31,7 @@ def require_possible(problem: Problem) -> None:
     """
     surface, placed, corners = problem.surface, problem.singularities, problem.chosen_corners
     require_budget(surface, placed, corners)
-    known = existence(surface, placed, corners, problem.chosen_turns)
+    known = existence(surface, placed, corners, problem.known_turns)
     if known.theorem is not None:
         raise LayoutError(f"no quads: {str(known.theorem).rstrip('.')}", remedies=known.remedies)
 

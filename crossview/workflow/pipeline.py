@@ -25,6 +25,7 @@ from solvers.fields import (
     IsotropicSolver,
     Limits,
     PreparedSurface,
+    holonomy_class,
     judge,
     prepare,
 )
@@ -218,7 +219,7 @@ def _solution(
         tolerance = float(np.radians(problem.options.tolerance_degrees))
         limits = Limits.on(solver.holonomy, tolerance)
         inverted, wound = map_faults(integrated, limits)
-        turns = None if integrated is None else integrated.aligned.turns
+        turns = None if integrated is None else holonomy_class(integrated.aligned)
         verdict = judge(field, inverted, limits, wrong_windings=wound or 0, turns=turns)
     return Solution(
         problem,

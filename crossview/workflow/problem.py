@@ -125,9 +125,10 @@ class Problem:
         return default_corners(self.surface) if self.corners is None else self.corners
 
     @property
-    def chosen_turns(self) -> tuple[int, ...] | None:
-        """The turns that its method takes; the isotropic field has its own."""
-        return None if self.method == "isotropic" else self.options.turns
+    def known_turns(self) -> tuple[int, ...] | None:
+        """The turns of its field, as far as they are known before any solve."""
+        free = self.method == "isotropic" or any(self.chosen_corners.values())
+        return None if free else self.options.turns
 
     @cached_property
     def features(self) -> Features:

@@ -18,6 +18,7 @@ from solvers.fields.natural import (
 from solvers.fields.placement import MOST_VALENCE
 from solvers.fields.prepared import Operators, PreparedSurface, prepare
 from solvers.fields.sizes import size_map
+from solvers.fields.turning import holonomy_class
 from solvers.fields.verdict import TOLERANCE_DEGREES, Limits, Verdict, judge
 
 __all__ = [
@@ -43,6 +44,7 @@ __all__ = [
     "aligned_field",
     "alternating_field",
     "anisotropic_field",
+    "holonomy_class",
     "judge",
     "natural_singularities",
     "prepare",

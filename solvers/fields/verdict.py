@@ -160,8 +160,7 @@ def judge(
     wrong_windings : int, optional
         Vertices of the map around which the angles of the images do not add up to their quads.
     turns : sequence of int, optional
-        Quarter turns of the field over each holonomy condition besides those nearest to the
-        isotropic field.
+        Quarter turns of the field, as of `holonomy_class`.
 
     Returns
     -------

@@ -167,28 +167,30 @@ class ChangeTurns(Remedy):
     ----------
     words : str
         As in `Remedy`.
-    turns : tuple of int
-        Quarter turns over each, besides those nearest to the isotropic field.
+    by : tuple of int
+        Quarter turns to add over each.
 
     Examples
     --------
     >>> from solvers.singularities import ChangeTurns
-    >>> ChangeTurns.of((0, 0)).words
-    'take the turns 0, 0'
+    >>> ChangeTurns.of((-1, 0)).words
+    'change the turns by -1, 0'
     """
 
-    turns: tuple[int, ...]
+    by: tuple[int, ...]
 
     @classmethod
-    def of(cls, turns: tuple[int, ...]) -> ChangeTurns:
+    def of(cls, by: Iterable[int]) -> ChangeTurns:
         """Return the remedy, in its usual words.
 
         Parameters
         ----------
-        turns : tuple of int
+        by : iterable of int
             As of the class.
         """
-        return cls(f"take the turns {', '.join(map(str, turns))}", turns)
+        added = tuple(by)
+        listed = ", ".join(f"{n:+d}" if n else "0" for n in added)
+        return cls(f"change the turns by {listed}", added)
 
 
 @dataclass(frozen=True)

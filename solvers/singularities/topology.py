@@ -58,7 +58,7 @@ class Existence:
     >>> from solvers.singularities import existence
     >>> found = existence(torus(n=12), [], {}, turns=[0, 1])
     >>> found.answer, [remedy.words for remedy in found.remedies]
-    ('impossible', ['take the turns 0, 0'])
+    ('impossible', ['change the turns by 0, -1'])
     """
 
     answer: Answer
@@ -171,18 +171,27 @@ def _on_torus(inside: Sequence[int], turns: Sequence[int] | None) -> tuple[Answe
 def _on_annulus(
     loops: Sequence[Sequence[int]], inside: Sequence[int], turns: Sequence[int] | None
 ) -> tuple[Answer, Theorem | None]:
-    sums = [[0, *accumulate(loop)] for loop in loops]
+    sums = _sums(loops)
     if inside or sums[0][-1]:  # one singularity, or boundary, turned about the axis: any mean
         return "possible", None
     if not any(loops):
         return ("impossible", FLAT_ANNULUS) if any(turns or ()) else ("possible", None)
-    low = min(sums[1]) - max(sums[0])
-    high = max(sums[1]) - min(sums[0])
+    low, high = _span(sums)
     if high - low < 2:
         return "impossible", ZIGZAG
     if turns is None or low < turns[-1] < high:
         return "possible", None
     return "impossible", ANNULUS_TURNS
+
+
+def _sums(loops: Sequence[Sequence[int]]) -> list[list[int]]:
+    """Return the sums of the corners passed on each boundary, from none on."""
+    return [[0, *accumulate(loop)] for loop in loops]
+
+
+def _span(sums: Sequence[Sequence[int]]) -> tuple[int, int]:
+    """Return between which numbers the turns from the one boundary to the other must be."""
+    return min(sums[1]) - max(sums[0]), max(sums[1]) - min(sums[0])
 
 
 def existence(
@@ -202,9 +211,9 @@ def existence(
     corners : mapping of int to int
         Index of the corners, by boundary vertex.
     turns : sequence of int, optional
-        Quarter turns over each holonomy condition besides those nearest to the isotropic field.
-        They are what `decide` takes where there are neither singularities nor corners, and only
-        there they count.
+        As of `decide`, from behind the first vertex of each boundary loop; they count where there
+        are no singularities. Where there are no corners either, they are those over each holonomy
+        condition besides those nearest to the isotropic field.
 
     Returns
     -------
@@ -225,22 +234,25 @@ def existence(
     >>> found = existence(surface, pair, {})
     >>> found.answer, [remedy.words for remedy in found.remedies]
     ('impossible', ['add a pair of valences 3 and 5'])
-    >>> existence(surface, [], {}, turns=[1, 0]).remedies[0].turns
-    (0, 0)
+    >>> existence(surface, [], {}, turns=[1, 0]).remedies[0].by
+    (-1, 0)
     """
     placed = checked_singularities(singularities)
     turning = {vertex: k for vertex, k in checked_corners(surface, corners).items() if k}
     indices = [s.index for s in placed if s.index]
     index = np.zeros(surface.n_vertices, dtype=np.int64)
     index[list(turning)] = list(turning.values())
-    around = [index[loop][index[loop] != 0].tolist() for loop in surface.boundary_loops]
-    plain = None if indices or turning else turns
-    answer, theorem = decide(surface.genus, around, indices, plain)
+    around = [np.roll(index[loop], -1) for loop in surface.boundary_loops]
+    loops = [along[along != 0].tolist() for along in around]
+    answer, theorem = decide(surface.genus, loops, indices, None if indices else turns)
     remedies: tuple[Remedy, ...] = ()
     if theorem is BUDGET:
         remedies = index_budget(surface, placed, turning).remedies
     elif theorem is FLAT_TORUS or theorem is FLAT_ANNULUS:
-        remedies = (ChangeTurns.of((0,) * len(turns or ())),)
+        remedies = (ChangeTurns.of(-n for n in turns or ()),)
+    elif theorem is ANNULUS_TURNS and turns:
+        low, high = _span(_sums(loops))
+        remedies = (ChangeTurns.of([min(max(turns[0], low + 1), high - 1) - turns[0]]), AddPair())
     elif theorem is ZIGZAG:
         remedies = (AddPair(), ChangeCorners.none_of(turning))
     elif theorem is not None:

@@ -176,9 +176,10 @@ def test_what_topology_forbids_is_impossible_whatever_the_field_is_like() -> Non
         assert (verdict.status, verdict.refused) == ("impossible", True)
         assert verdict.theorem is theorem
         (remedy,) = (r for r in verdict.remedies if isinstance(r, ChangeTurns))
-        back = aligned_field(prepare(surface, ()), remedy.turns)
+        turned = [a + b for a, b in zip(turns, remedy.by, strict=True)]
+        back = aligned_field(prepare(surface, ()), turned)
         found = IntegratedField(back, back.start).field
-        assert judge(found, 0, turns=remedy.turns).status == "valid"
+        assert judge(found, 0, turns=turned).status == "valid"
         with pytest.raises(LayoutError, match="without singularities the crosses"):
             run(quad_layout(IntegratedField(aligned, aligned.start)))
 

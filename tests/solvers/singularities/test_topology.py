@@ -227,7 +227,7 @@ def test_remedies_lead_to_what_is_possible() -> None:
     found = existence(ring_around, [], {}, [2, -1])
     (turns,) = found.remedies
     assert isinstance(turns, ChangeTurns)
-    assert existence(ring_around, [], {}, turns.turns).answer == "possible"
+    assert turns.by == (-2, 1)
     assert isinstance(existence(square(n=2), [], {}).remedies[0], AddMissing)
 
 
@@ -243,3 +243,15 @@ def test_a_torus_with_a_valence_4_besides_3_and_5_is_impossible() -> None:
     places = [(0, 3), (40, 5), (70, 4)]
     placed = [Singularity(surface.point_at_vertex(v), n) for v, n in places]
     assert existence(surface, placed, {}).theorem is TORUS_PAIR
+
+
+def test_turns_that_part_the_boundaries_are_mended_by_the_nearest_that_do_not() -> None:
+    plate = annulus(n=24)
+    a, b, c, d = plate.boundary_loops[0][[1, 3, 6, 9]].tolist()
+    corners = {a: 1, b: 1, c: -1, d: -1}
+    for turns in (-3, -2, 0, 1):
+        found = existence(plate, [], corners, [turns])
+        assert found.theorem is ANNULUS_TURNS
+        change = found.remedies[0]
+        assert isinstance(change, ChangeTurns)
+        assert existence(plate, [], corners, [turns + change.by[0]]).answer == "possible"
