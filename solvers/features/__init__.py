@@ -5,6 +5,7 @@ from __future__ import annotations
 from solvers.features.dihedral import dihedral_angles, sharp_edges
 from solvers.features.edges import FeatureCurve, Features, no_features
 from solvers.features.sectors import Sectors, sectors_between
+from solvers.features.strays import without_strays
 
 __all__ = [
     "FeatureCurve",
@@ -14,4 +15,5 @@ __all__ = [
     "no_features",
     "sectors_between",
     "sharp_edges",
+    "without_strays",
 ]

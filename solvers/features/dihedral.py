@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from solvers.features.edges import no_features
+from solvers.features.strays import without_strays
 from solvers.number_checks import real_number
 from solvers.surface.triangulation import FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface
@@ -50,7 +51,7 @@ def sharp_edges(surface: TriSurface, degrees: float) -> IntArray:
 
     The normal of a next to flat triangle means little: where its longest edge is sharp, the two
     others are not. Curves of sharp edges that leave a longer one at too sharp an angle are left
-    out, as `Features.without_spurs`.
+    out, as `Features.without_spurs`, and those that the triangles make, as `without_strays`.
 
     Parameters
     ----------
@@ -82,7 +83,8 @@ def sharp_edges(surface: TriSurface, degrees: float) -> IntArray:
     True
     """
     degrees = real_number("the dihedral angle of sharp edges", degrees, 0, 180)
-    sharp = dihedral_angles(surface) > np.radians(degrees)
+    bends = dihedral_angles(surface)
+    sharp = bends > np.radians(degrees)
     angles = surface.triangulation.angles
     flat = np.flatnonzero(angles.max(axis=1) > FLAT)
     longest = (np.argmax(angles[flat], axis=1) + 1) % 3
@@ -90,4 +92,5 @@ def sharp_edges(surface: TriSurface, degrees: float) -> IntArray:
     along = edges[np.arange(len(flat)), longest]
     over = edges[sharp[along]].reshape(-1)
     sharp[np.setdiff1d(over, along)] = False
-    return no_features(surface).united(np.flatnonzero(sharp)).without_spurs().edges
+    found = no_features(surface).united(np.flatnonzero(sharp)).without_spurs()
+    return without_strays(found, bends, np.radians(degrees)).edges
