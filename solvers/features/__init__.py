@@ -5,7 +5,7 @@ from __future__ import annotations
 from solvers.features.dihedral import dihedral_angles, sharp_edges
 from solvers.features.edges import FeatureCurve, Features, no_features
 from solvers.features.sectors import Sectors, sectors_between
-from solvers.features.strays import without_strays
+from solvers.features.strays import without_spurs, without_strays
 
 __all__ = [
     "FeatureCurve",
@@ -15,5 +15,6 @@ __all__ = [
     "no_features",
     "sectors_between",
     "sharp_edges",
+    "without_spurs",
     "without_strays",
 ]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from solvers.features.edges import no_features
-from solvers.features.strays import without_strays
+from solvers.features.strays import without_spurs, without_strays
 from solvers.number_checks import real_number
 from solvers.surface.triangulation import FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface
@@ -51,7 +51,7 @@ def sharp_edges(surface: TriSurface, degrees: float) -> IntArray:
 
     The normal of a next to flat triangle means little: where its longest edge is sharp, the two
     others are not. Curves of sharp edges that leave a longer one at too sharp an angle are left
-    out, as `Features.without_spurs`, and those that the triangles make, as `without_strays`.
+    out, as `without_spurs`, and those that the triangles make, as `without_strays`.
 
     Parameters
     ----------
@@ -92,5 +92,6 @@ def sharp_edges(surface: TriSurface, degrees: float) -> IntArray:
     along = edges[np.arange(len(flat)), longest]
     over = edges[sharp[along]].reshape(-1)
     sharp[np.setdiff1d(over, along)] = False
-    found = no_features(surface).united(np.flatnonzero(sharp)).without_spurs()
-    return without_strays(found, bends, np.radians(degrees)).edges
+    least = np.radians(degrees)
+    found = without_spurs(no_features(surface).united(np.flatnonzero(sharp)), bends, least)
+    return without_strays(found, bends, least).edges

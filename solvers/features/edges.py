@@ -23,12 +23,6 @@ from solvers.surface.refinement import Refinement
 from solvers.surface.triangulation import FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface, barycentric
 
-NARROW = np.radians(30)
-"""Angle between two features that leaves no room for a quad, radians.
-
-Chosen below the 45 degrees up to which no quad is nearer to the angle than one, to drop few.
-"""
-
 SHARP_TURN = np.pi / 4 * (1 + TIE)
 """By how much a curve may turn at a vertex and still go on, radians.
 
@@ -235,28 +229,6 @@ class Features:
         edges = self.surface.require_edges(edges)
         inner = edges[self.surface.edge_faces[edges, 1] >= 0]
         return Features(self.surface, np.union1d(self.edges, inner))
-
-    def without_spurs(self) -> Features:
-        """Return the features less curves that leave a longer one at too sharp an angle.
-
-        No quad fits between two curves that are next to parallel where they meet.
-        """
-        features = self
-        while len(spurs := features._spurs()):
-            kept = ~np.isin(features.curve_of, spurs)
-            features = Features(self.surface, features.edges[kept])
-        return features
-
-    def _spurs(self) -> IntArray:
-        """Return the curves that are the shorter side of a narrow sector."""
-        found = self.sectors
-        bounded = np.flatnonzero((found.angle < NARROW) & (found.start >= 0) & (found.end >= 0))
-        pairs = self.curve_of[np.stack([found.start[bounded], found.end[bounded]])]
-        pairs = pairs[:, pairs[0] != pairs[1]]
-        t = self.surface.triangulation
-        lengths = t.lengths.reshape(-1)[self.halfedges]
-        length = np.bincount(self.curve_of, lengths, len(self.curves))
-        return np.unique(np.where(length[pairs[0]] < length[pairs[1]], pairs[0], pairs[1]))
 
     def refined(self, refinement: Refinement) -> Features:
         """Return the same features on a refined surface: refinement splits edges, no more.

@@ -29,8 +29,9 @@ Chosen, above rounding and below what differs between integers.
 MOST_STEPS = 1000
 """Steps of one or two numbers after rounding at most. Chosen; each lowers the energy."""
 
-MOST_PAIRS = 200
-"""Pairs of numbers that are tried for a step at most, those first that save most. Chosen."""
+PRICES = 4.0 ** np.arange(-2, 4)
+"""Of a quad that is missing, one after the other, against the largest term of the energy. Chosen.
+"""
 
 FARTHEST = 1000
 """Largest number that is looked for, quarter turns. Chosen, above what any curve turns."""
@@ -209,11 +210,15 @@ def nearest_integers(
     x = _rounded(matrix, linear)
     if rows is None:
         rows = Rows(csr_array((0, len(x))), np.zeros(0), np.zeros(0))
+    largest = float(np.diag(matrix).max(initial=0.0))
+    for price in largest * PRICES:
+        if rows.met(x):
+            break
+        x = _descended(matrix, linear, rows, x, price)
     if not rows.met(x):
-        ridge = RIDGE * np.diag(matrix).max(initial=0.0)
-        within = nearest_within(rows, x, np.diag(matrix) + ridge)
+        within = nearest_within(rows, x, np.diag(matrix) + RIDGE * largest)
         x = x if within is None else within
-    return _descended(matrix, linear, rows, x) if np.diag(matrix).max(initial=0.0) > 0 else x
+    return _descended(matrix, linear, rows, x, largest / RIDGE) if largest > 0 else x
 
 
 def _rounded(matrix: FloatArray, linear: FloatArray) -> FloatArray:
@@ -234,53 +239,67 @@ def _rounded(matrix: FloatArray, linear: FloatArray) -> FloatArray:
     return x
 
 
-def _descended(matrix: FloatArray, linear: FloatArray, rows: Rows, x: FloatArray) -> FloatArray:
-    """Change one number, or two, by one as long as that lowers the energy, within rows."""
+def _descended(
+    matrix: FloatArray, linear: FloatArray, rows: Rows, x: FloatArray, price: float
+) -> FloatArray:
+    """Change one number, or two, by one as long as the energy and the price of what is off fall."""
     enough = -RIDGE * np.diag(matrix).max(initial=0.0)
     for _ in range(MOST_STEPS):
         slope = 2 * (matrix @ x + linear)
-        step = _best_step(matrix, slope, rows, x, enough)
-        if step is None:
+        alone = _gains(matrix, slope, rows, x, price)
+        step, gain = _lowest(alone)
+        if gain >= enough:
+            step, gain = _pair(matrix, slope, rows, x, price, alone)
+        if gain >= enough:
             break
         x = x + step
     return x
 
 
-def _best_step(
-    matrix: FloatArray, slope: FloatArray, rows: Rows, x: FloatArray, enough: float
-) -> FloatArray | None:
-    """Return the step of one number that saves most, of two if none of one saves enough."""
-    diagonal = np.diag(matrix)
-    single = np.stack([diagonal + slope, diagonal - slope])
-    for flat in _lowest(single, enough):
-        way, i = np.unravel_index(flat, single.shape)
-        step = np.zeros(len(x))
-        step[i] = 1 - 2 * way
-        if rows.met(x + step):
-            return step
-    up, down = single
-    pairs = np.stack(
-        [
-            up[:, None] + up + 2 * matrix,
-            up[:, None] + down - 2 * matrix,
-            down[:, None] + down + 2 * matrix,
-        ]
+def _gains(
+    matrix: FloatArray, slope: FloatArray, rows: Rows, x: FloatArray, price: float
+) -> FloatArray:
+    """Return what one more (2, p), and one less, of each number adds to energy and price."""
+    row = np.repeat(np.arange(len(rows.lower)), np.diff(rows.matrix.indptr))
+    value = (rows.matrix @ x)[row]
+    lower, upper = rows.lower[row], rows.upper[row]
+
+    def off(value: FloatArray) -> FloatArray:
+        return np.maximum(lower - value, 0.0) + np.maximum(value - upper, 0.0)
+
+    more, less = (
+        np.bincount(rows.matrix.indices, off(value + way * rows.matrix.data) - off(value), len(x))
+        for way in (1, -1)
     )
-    pairs[:, np.arange(len(x)), np.arange(len(x))] = 0.0
-    for flat in _lowest(pairs, enough):
-        ways, i, j = np.unravel_index(flat, pairs.shape)
-        step = np.zeros(len(x))
-        step[i], step[j] = ((1, 1), (1, -1), (-1, -1))[ways]
-        if rows.met(x + step):
-            return step
-    return None
+    diagonal = np.diag(matrix)
+    return np.stack([diagonal + slope + price * more, diagonal - slope + price * less])
 
 
-def _lowest(gains: FloatArray, enough: float) -> list[int]:
-    """Return where the lowest of the gains are that are below `enough`, the lowest first."""
-    flat = gains.reshape(-1)
-    low = np.flatnonzero(flat < enough)
-    if len(low) > MOST_PAIRS:
-        low = low[np.argpartition(flat[low], MOST_PAIRS)[:MOST_PAIRS]]
-    found: list[int] = low[np.argsort(flat[low], kind="stable")].tolist()
-    return found
+def _lowest(gains: FloatArray) -> tuple[FloatArray, float]:
+    """Return the step of lowest gain, and the gain."""
+    step = np.zeros(gains.shape[1])
+    if not len(step):
+        return step, 0.0
+    way, i = np.unravel_index(np.argmin(gains), gains.shape)
+    step[i] = 1 - 2 * way
+    return step, float(gains[way, i])
+
+
+def _pair(
+    matrix: FloatArray,
+    slope: FloatArray,
+    rows: Rows,
+    x: FloatArray,
+    price: float,
+    alone: FloatArray,
+) -> tuple[FloatArray, float]:
+    """Return the step of two numbers of lowest gain, and the gain."""
+    best, lowest = np.zeros(len(x)), 0.0
+    for way, i in np.ndindex(alone.shape):
+        first = np.zeros(len(x))
+        first[i] = 1 - 2 * way
+        then = _gains(matrix, slope + 2 * first[i] * matrix[i], rows, x + first, price)
+        second, gain = _lowest(then)
+        if alone[way, i] + gain < lowest:
+            best, lowest = first + second, float(alone[way, i] + gain)
+    return best, lowest

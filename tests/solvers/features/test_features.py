@@ -10,6 +10,7 @@ from crossview.cases.model import Case
 from crossview.workflow.problem import Problem
 from solvers.features.dihedral import sharp_edges
 from solvers.features.edges import Features, no_features
+from solvers.features.strays import without_spurs
 from solvers.fields.aligned import IntegratedField, aligned_field
 from solvers.fields.crossfield import CrossField
 from solvers.fields.feature_integers import nearest_integers
@@ -120,10 +121,11 @@ def test_a_spur_beside_a_longer_curve_is_no_feature() -> None:
 
     drawn = no_features(surface).united(rays(0, 15, 180))
     assert len(drawn.curves) == 3
-    kept = drawn.without_spurs()
+    sharp = np.full(len(surface.edges), np.radians(90))
+    kept = without_spurs(drawn, sharp, np.radians(40))
     assert kept.edges.tolist() == sorted(set(rays(0, 180).tolist()))
     apart = no_features(surface).united(rays(0, 45, 180))
-    assert apart.without_spurs().edges.tolist() == apart.edges.tolist()
+    assert without_spurs(apart, sharp, np.radians(40)).edges.tolist() == apart.edges.tolist()
 
 
 def test_edges_of_the_boundary_are_no_features() -> None:

@@ -71,3 +71,13 @@ def test_noise_makes_few_features_of_its_own(seed: int) -> None:
     assert np.isin(fold, found).all()
     by_chance = np.count_nonzero(dihedral_angles(roof) > LEAST) - len(fold)
     assert len(found) - len(fold) <= by_chance / 2
+
+
+@pytest.mark.parametrize("degrees", [35, 45, 60, 90])
+def test_the_edges_of_a_wedge_are_all_features(degrees: float) -> None:
+    """They are sharp, so that narrow sectors between them are the shape's."""
+    a = np.radians(degrees)
+    base = np.array([[0, 0, 0], [1, 0, 0], [np.cos(a), np.sin(a), 0]])
+    faces = [[0, 2, 1], [3, 4, 5], [0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4], [2, 0, 3], [2, 3, 5]]
+    wedge = TriSurface(np.concatenate([base, base + [0, 0, 1]]), faces)
+    assert len(sharp_edges(wedge, 40)) == 9
