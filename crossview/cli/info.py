@@ -60,7 +60,8 @@ def _lines(name: str, found: dict[str, Any]) -> Iterator[str]:
         budget, known = piece["index_budget"], piece["existence"]
         yield f"{indent}{budget['message']}, corners {_corners(piece['corners'])}"
         if budget["satisfied"] and known["theorem"] is not None:
-            yield f"{indent}impossible: {known['theorem']} To mend it: {known['remedies'][0]}."
+            mended = " or ".join(known["remedies"])
+            yield f"{indent}impossible: {known['theorem']} To mend it, {mended}."
 
 
 def _boundary(lengths: list[float]) -> str:

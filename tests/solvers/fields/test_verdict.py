@@ -125,7 +125,7 @@ def test_crosses_that_differ_by_what_rounding_leaves_on_real_surfaces_close(
 
 
 def test_a_fifth_of_a_degree_on_an_annulus_is_as_good_as_none() -> None:
-    """The mesh can tell no less: a layout is made, and called suspect."""
+    """The mesh can tell no less: a layout is made."""
     for off, refused in ((0.19, False), (0.24, True)):
         aligned = turned_pairs(off)
         start = IntegratedField(aligned, aligned.start)
