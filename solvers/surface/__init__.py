@@ -11,6 +11,7 @@ from solvers.surface.points import SurfacePoint
 from solvers.surface.refinement import LEVELS, Refinement, refine_at, refine_everywhere
 from solvers.surface.sectors import corner_sectors
 from solvers.surface.symmetries import Isometry, isometries
+from solvers.surface.shaping import shaped
 from solvers.surface.triangulation import (
     QUARTER,
     BoolArray,
@@ -49,5 +50,6 @@ __all__ = [
     "problems",
     "refine_at",
     "refine_everywhere",
+    "shaped",
     "straightest",
 ]
