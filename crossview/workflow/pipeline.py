@@ -74,10 +74,9 @@ class Pipeline:
         with _timed(seconds, "refine"):
             prepared = self._prepared_for(problem)
         yield Progress("factorising", 0.1)
-        isotropic = problem.method == "isotropic"
         with _timed(seconds, "factor"):
-            solver = prepared.operators.delaunay if isotropic else prepared.operators.own
-        if isotropic:
+            solver = prepared.operators.solver
+        if problem.method == "isotropic":
             yield Progress("solving", 0.6)
             with _timed(seconds, "solve"):
                 solver = in_joining_gauge(solver, prepared.singularities)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from solvers.fields.aligned import AlignedField, IntegratedField, aligned_field
 from solvers.fields.connection import Condition, Discretization
-from solvers.fields.crossfield import Convergence, CrossField
+from solvers.fields.crossfield import Convergence, CrossField, WorkingField
 from solvers.fields.holonomy import Holonomy
 from solvers.fields.integrable import FieldStep, alternating_field, anisotropic_field
 from solvers.fields.isotropic import IsotropicSolver
@@ -41,6 +41,7 @@ __all__ = [
     "Operators",
     "PreparedSurface",
     "Verdict",
+    "WorkingField",
     "aligned_field",
     "alternating_field",
     "anisotropic_field",

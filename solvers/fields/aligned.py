@@ -16,11 +16,14 @@ import numpy as np
 
 from solvers.errors import CrossviewError
 from solvers.features.edges import Features, no_features
-from solvers.fields.crossfield import Convergence, CrossField
+from solvers.features.sectors import sectors_between
+from solvers.fields.crossfield import Convergence, CrossField, WorkingField
 from solvers.fields.feature_alignment import align_with_features
 from solvers.fields.integrability import Integrability
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.fields.prepared import PreparedSurface
+from solvers.fields.sampled import sampled
+from solvers.fields.sector_quads import turned_over_corners
 from solvers.frozen import freeze_arrays
 from solvers.number_checks import whole_numbers
 from solvers.surface.triangulation import QUARTER, FloatArray, IntArray
@@ -41,7 +44,7 @@ class AlignedField:
     prepared : PreparedSurface
         The surface and the configuration.
     solver : IsotropicSolver
-        On the surface's own triangles; turned as the field is.
+        Of the prepared surface; turned as the field is.
     isotropic : CrossField
         The isotropic field of the same configuration.
     correction : (m, 3) float array
@@ -97,7 +100,7 @@ class AlignedField:
             From 0, the isotropic field, to 1, the aligned one.
         """
         i = self.integrability
-        conjugate = self.isotropic.H[i.triangulation.faces] + fraction * self.correction
+        conjugate = self.isotropic.solved.H[i.triangulation.faces] + fraction * self.correction
         turning = None if self.turning is None else fraction * self.turning
         return Integrability(i.discretization, conjugate, i.period_jumps, i.features, turning)
 
@@ -109,11 +112,11 @@ class AlignedField:
         """
         i = self.integrability
         t, features = i.triangulation, i.discretization.features
-        found = features.sectors
+        found = sectors_between(t, i.features)
         # Over a corner, edge to edge, the crosses turn as from one midpoint to the other.
-        turned = t.angles - (i.offsets[:, [2, 0, 1]] - i.offsets)
-        off = np.abs(found.total(turned) - found.angle)
-        regular = features.degrees > 0
+        off = np.abs(found.total(turned_over_corners(i.offsets)))
+        regular = np.zeros(t.n_vertices, dtype=bool)
+        regular[: len(features.degrees)] = features.degrees > 0
         for s in self.isotropic.singularities:
             regular[self.isotropic.surface.nearest_vertex(s.point)] = False
         return np.unique(found.vertex[(off > FORCED) & regular[found.vertex]])
@@ -122,7 +125,8 @@ class AlignedField:
     def start(self) -> FloatArray:
         """The unknowns of the aligned field with the isotropic size for both scales."""
         x = np.zeros(self.integrability.assembly.n)
-        x[: len(self.isotropic.H)] = -self.isotropic.H
+        h = self.isotropic.solved.H
+        x[: len(h)] = -h
         return x
 
 
@@ -179,18 +183,22 @@ class IntegratedField:
         h = -x[: t.n_vertices]
         mean = -(t.areas @ a.mean(axis=1)) / t.areas.sum()
         none = np.zeros(len(d.conditions))
+        solved = WorkingField(d.working, h - mean, theta, s, density)
+        # The function of halfedge i is 1 - 2 times the hat function of corner i + 2.
+        seen = sampled(d, solved, t.gradients(-2.0 * offsets[:, [1, 2, 0]]))
         return replace(
             self.aligned.isotropic,
             method=self.method,
-            H=h - mean,
-            theta=theta,
+            H=seen.H,
+            theta=seen.theta,
             defects=d.defects(theta, offsets),
             boundary_misalignment=d.boundary_misalignment(theta, offsets),
             max_closing_error=d.max_closing_error(theta, offsets, none),
             feature_misalignment=d.feature_misalignment(theta, offsets),
-            half_log_aspect=s,
-            error_density=density,
+            half_log_aspect=seen.half_log_aspect,
+            error_density=seen.error_density,
             convergence=self.convergence,
+            on_working=None if d.working.unchanged else solved,
         )
 
 
@@ -241,7 +249,7 @@ def aligned_field(
     >>> bool(abs(aligned.correction).max() < 1e-12)
     True
     """
-    solver, singularities = prepared.operators.own, prepared.singularities
+    solver, singularities = prepared.operators.solver, prepared.singularities
     field, d = solver.solve(singularities), solver.discretization
     if turns is not None:
         turns = whole_numbers("the turns", turns, (None,)).tolist()
@@ -254,7 +262,7 @@ def aligned_field(
     if like is not None and solver.gauge_free:
         solver = solver.in_gauge(field.turn_to(like))
         field = solver.solve(singularities)
-    conjugate, turning = field.H[solver.surface.faces], None
+    conjugate, turning = field.solved.H[d.triangulation.faces], None
     released = no_features(solver.surface)
     if len(d.features):
         found = align_with_features(solver.holonomy, conjugate, field.defects, turns)

@@ -1,4 +1,4 @@
-"""What a surface contributes to every solve: its Delaunay triangulation, loops and walk."""
+"""What a surface contributes to every solve: its working triangulation, loops and walk."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from solvers.features.edges import Features, no_features
 from solvers.surface.delaunay import intrinsic_delaunay
 from solvers.surface.homology import DualTree, handle_loops
 from solvers.surface.points import SurfacePoint
+from solvers.surface.shaping import parted, shaped
 from solvers.surface.triangulation import (
     QUARTER,
     BoolArray,
@@ -23,7 +24,7 @@ from solvers.surface.triangulation import (
     wrap,
 )
 from solvers.surface.trisurface import TriSurface
-from solvers.surface.working import Located, WorkingTriangulation
+from solvers.surface.working import Located
 
 CLEARANCE = 1e-6
 """Least barycentric weight of a point in a triangle, for no part of a split to be without area.
@@ -64,18 +65,15 @@ class Condition:
 
 
 class Discretization:
-    """The intrinsic Delaunay triangulation of a surface and the tree to walk it by.
+    """The working triangulation of a surface and the tree to walk it by.
 
-    Handle loops and features are edges of the surface and of the triangulation; the walk does not
-    cross handle loops.
+    Intrinsic Delaunay, its poor triangles refined. Handle loops and features are edges of the
+    surface and of the triangulation; the walk does not cross handle loops.
 
     Parameters
     ----------
     surface : TriSurface
         The surface.
-    delaunay : bool, optional
-        Whether to flip edges to Delaunay; without, the triangulation is the surface's own, and
-        the operator may have negative weights where its triangles are obtuse.
     features : Features, optional
         Of the surface; by default none.
 
@@ -86,13 +84,20 @@ class Discretization:
     features : Features
         Those given.
     feature_halfedges : (k,) int array
-        One halfedge of each feature edge, on the triangulation.
+        One halfedge of each edge of the triangulation on a feature, in the order of the features'
+        edges, and along each that was split.
+    feature_edge : (k,) int array
+        The feature edge that each is part of, a position in `Features.edges`.
+    boundary_loops : tuple of int array
+        The boundary halfedges of the triangulation, loop by loop, each from its first vertex.
     handles : HandleLoops
         Handle loops of the surface.
     conditions : tuple of Condition
         The holonomy conditions, handles first; halfedges are the triangulation's.
     working : WorkingTriangulation
-        The moves from the surface to `triangulation`.
+        The moves from the surface to the triangulation.
+    triangulation : IntrinsicTriangulation
+        What everything is solved on; the surface's vertices keep their numbers.
     chain : (2 g, 3 m) int array
         Halfedges of the handle loops on the triangulation, as in `HandleLoops`.
     tree : DualTree
@@ -117,25 +122,24 @@ class Discretization:
     True
     """
 
-    def __init__(
-        self, surface: TriSurface, *, delaunay: bool = True, features: Features | None = None
-    ) -> None:
+    def __init__(self, surface: TriSurface, *, features: Features | None = None) -> None:
         self.surface = surface
         self.features = no_features(surface) if features is None else features.require_on(surface)
         own = surface.triangulation
         self.handles = handle_loops(own, surface.boundary_loops)
-        starts = self._boundary_starts(own)
-        marked = np.array([*starts, *self.handles.closing], dtype=np.int64)
-        numbered = [_numbered(h, own) for h in (self.features.halfedges, marked)]
+        numbered = [_numbered(h, own) for h in (self.features.halfedges, self.handles.closing)]
         chain = np.concatenate([self.handles.chain, *numbered])
-        working = intrinsic_delaunay if delaunay else WorkingTriangulation.of
-        self.working = working(own, chain)
+        shaped_ = shaped(intrinsic_delaunay(own, chain))
+        self.working = parted(shaped_, len(chain) - 2) if len(self.features) else shaped_
         self.triangulation: IntrinsicTriangulation = self.working.triangulation
         self.chain = self.working.marks[:-2]
-        self.feature_halfedges, places = (_places(row) for row in self.working.marks[-2:])
-        moved = places.tolist()
-        self.reference = moved[0] if starts else -1
-        self.conditions = tuple(self._conditions(moved[: len(starts)], moved[len(starts) :]))
+        self.feature_halfedges, self.feature_edge = self._feature_pieces(self.working.marks[-2])
+        first = [int(loop[0]) for loop in surface.boundary_loops]
+        self.boundary_loops = self.triangulation.boundary_loops_from(first)
+        starts = [int(loop[0]) for loop in self.boundary_loops]
+        self.reference = starts[0] if starts else -1
+        closing = _first_places(self.working.marks[-1]).tolist()
+        self.conditions = tuple(self._conditions(starts, closing))
         self.tree = DualTree(self.triangulation, max(self.reference, 0) // 3, self.chain != 0)
 
     def with_features(self, kept: BoolArray) -> Discretization:
@@ -144,18 +148,26 @@ class Discretization:
         Parameters
         ----------
         kept : (k,) bool array
-            Which of them.
+            Which of `feature_halfedges`; all on an edge of the surface or none.
         """
         other = copy(self)
-        other.features = Features(self.surface, self.features.edges[kept])
+        edges, other.feature_edge = np.unique(self.feature_edge[kept], return_inverse=True)
+        other.features = Features(self.surface, self.features.edges[edges])
         other.feature_halfedges = self.feature_halfedges[kept]
         return other
 
-    def _boundary_starts(self, own: IntrinsicTriangulation) -> list[int]:
-        """Return the halfedge that leaves the first vertex of each boundary loop."""
-        h = own.boundary_halfedges
-        leaving = dict(zip(own.tail[h].tolist(), h.tolist(), strict=True))
-        return [leaving[int(loop[0])] for loop in self.surface.boundary_loops]
+    def _feature_pieces(self, row: IntArray) -> tuple[IntArray, IntArray]:
+        """Return the halfedges on features, edge by edge and along each, and the edge of each."""
+        own = self.surface.triangulation
+        h = np.flatnonzero(row)
+        edge = row[h] - 1
+        start = np.zeros((len(h), 3))
+        start[np.arange(len(h)), h % 3] = 1.0
+        face, weights = self.working.lift_points(h // 3, start)
+        place = np.einsum("ki,kij->kj", weights, self.surface.vertices[self.surface.faces[face]])
+        first = self.surface.vertices[own.tail[self.features.halfedges[edge]]]
+        order = np.lexsort((np.linalg.norm(place - first, axis=1), edge))
+        return h[order], edge[order]
 
     def _conditions(self, starts: list[int], closing: list[int]) -> Iterator[Condition]:
         for i, (h, path) in enumerate(zip(closing, self.handles.paths, strict=True)):
@@ -190,11 +202,10 @@ class Discretization:
     @cached_property
     def boundary_loop_of(self) -> tuple[IntArray, IntArray]:
         """The boundary halfedges of the triangulation, and the loop each lies on."""
-        loop_of = np.full(self.surface.n_vertices, -1, dtype=np.int64)
-        for number, loop in enumerate(self.surface.boundary_loops):
-            loop_of[loop] = number
-        h = self.triangulation.boundary_halfedges
-        return h, loop_of[self.triangulation.tail[h]]
+        if not self.boundary_loops:
+            return np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64)
+        sizes = [len(loop) for loop in self.boundary_loops]
+        return np.concatenate(self.boundary_loops), np.repeat(np.arange(len(sizes)), sizes)
 
     def locate(self, points: Sequence[SurfacePoint]) -> Located:
         """Return where points of the surface, and the frames of their triangles, lie.
@@ -207,8 +218,7 @@ class Discretization:
         points = self.surface.require_own(points)
         faces = np.array([p.face for p in points], dtype=np.int64)
         weights = np.array([p.barycentric for p in points]).reshape(-1, 3)
-        own = self.surface.triangulation.corner_positions[faces]
-        return self.working.locate(faces, np.einsum("ki,kij->kj", weights, own))
+        return self.working.locate(faces, self.surface.triangulation.places(faces, weights))
 
     def place(self, points: Sequence[SurfacePoint]) -> tuple[IntArray, FloatArray]:
         """Return where points of the surface lie on the triangulation.
@@ -227,14 +237,21 @@ class Discretization:
             rounding) otherwise.
         """
         t, located = self.triangulation, self.locate(points)
-        corners = t.corner_positions[located.face]
-        third = located.place[:, 1] / corners[:, 2, 1]
-        second = (located.place[:, 0] - third * corners[:, 2, 0]) / corners[:, 1, 0]
-        inside = np.maximum(np.stack([1 - second - third, second, third], axis=1), CLEARANCE)
+        inside = np.maximum(t.weights_at(located.face, located.place), CLEARANCE)
         inside /= inside.sum(axis=1)[:, None]
         at_vertex = (inside <= CLEARANCE).sum(axis=1) == 2
         inside[at_vertex] = np.rint(inside[at_vertex])
         return located.face, inside
+
+    @cached_property
+    def vertex_points(self) -> tuple[IntArray, FloatArray]:
+        """Triangles and weights on the surface of the vertices of the triangulation."""
+        t = self.triangulation
+        corner = np.empty(t.n_vertices, dtype=np.int64)
+        corner[t.tail] = np.arange(len(t.twin))
+        weights = np.zeros((t.n_vertices, 3))
+        weights[np.arange(t.n_vertices), corner % 3] = 1.0
+        return self.working.lift_points(corner // 3, weights)
 
     @cached_property
     def barycentres(self) -> Located:
@@ -382,7 +399,7 @@ class Discretization:
         Returns
         -------
         (k,) float array
-            Radians in (-pi/4, pi/4], in the order of the features' edges.
+            Radians in (-pi/4, pi/4], in the order of `feature_halfedges`.
         """
         h = self.feature_halfedges
         turned = theta[h // 3] + offsets.reshape(-1)[h] - self.triangulation.directions[h]
@@ -423,7 +440,8 @@ class Discretization:
             Radians in (-pi/4, pi/4], in the order of the features' curves.
         """
         angle = self.feature_angles(theta, offsets)
-        return _largest(angle, self.features.curve_of, len(self.features.curves))
+        curve = self.features.curve_of[self.feature_edge]
+        return _largest(angle, curve, len(self.features.curves))
 
 
 def _numbered(h: IntArray, triangulation: IntrinsicTriangulation) -> IntArray:
@@ -433,10 +451,10 @@ def _numbered(h: IntArray, triangulation: IntrinsicTriangulation) -> IntArray:
     return row
 
 
-def _places(row: IntArray) -> IntArray:
-    """Return where the numbers 1, 2, ... are in a row of numbers on halfedges."""
+def _first_places(row: IntArray) -> IntArray:
+    """Return where each of the numbers 1, 2, ... is first in a row of numbers on halfedges."""
     place = np.flatnonzero(row)
-    return place[np.argsort(row[place])]
+    return place[np.unique(row[place], return_index=True)[1]]
 
 
 def _largest(angle: FloatArray, group: IntArray, count: int) -> FloatArray:

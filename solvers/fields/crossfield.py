@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -11,8 +11,9 @@ import numpy as np
 from solvers.errors import CrossviewError
 from solvers.frozen import freeze_arrays, frozen_property
 from solvers.singularities.budget import Singularity
-from solvers.surface.triangulation import FloatArray
+from solvers.surface.triangulation import FloatArray, IntrinsicTriangulation
 from solvers.surface.trisurface import TriSurface
+from solvers.surface.working import WorkingTriangulation
 
 
 @dataclass(frozen=True)
@@ -35,6 +36,50 @@ class Convergence:
 
     energies: tuple[float, ...] = ()
     converged: bool = True
+
+
+@dataclass(frozen=True, eq=False)
+class WorkingField:
+    """A cross in each triangle of a working triangulation: what is solved for.
+
+    Parameters
+    ----------
+    working : WorkingTriangulation
+        Of a surface.
+    H : (n,) float array
+        As of `CrossField`, at the vertices of the triangulation.
+    theta : (m,) float array
+        As of `CrossField`, in its triangles.
+    half_log_aspect : (m, 3) float array
+        As of `CrossField`, at their corners.
+    error_density : (m,) float array
+        As of `CrossField`, in its triangles.
+
+    Examples
+    --------
+    Its triangulation may have more triangles than the surface:
+
+    >>> from solvers.fields import IsotropicSolver
+    >>> from solvers.primitives import rectangle
+    >>> strip = rectangle(40, 3, 4, 2)
+    >>> field = IsotropicSolver(strip).solve([])
+    >>> len(field.theta), len(field.solved.theta) > len(field.theta)
+    (16, True)
+    """
+
+    working: WorkingTriangulation
+    H: FloatArray
+    theta: FloatArray
+    half_log_aspect: FloatArray
+    error_density: FloatArray
+
+    def __post_init__(self) -> None:
+        freeze_arrays(self)
+
+    @property
+    def triangulation(self) -> IntrinsicTriangulation:
+        """What it lives on."""
+        return self.working.triangulation
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,6 +117,9 @@ class CrossField:
         How the solver came to E.
     feature_misalignment : (c,) float array
         Largest angle between the crosses and each feature curve, with sign, radians.
+    on_working : WorkingField, optional
+        What was solved for, where that is on other triangles than the surface's; this is sampled
+        from it, but for the measures of the whole field.
 
     Examples
     --------
@@ -105,9 +153,31 @@ class CrossField:
     error_density: FloatArray = field(repr=False)
     convergence: Convergence
     feature_misalignment: FloatArray = field(default_factory=lambda: np.zeros(0))
+    on_working: WorkingField | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
         freeze_arrays(self)
+
+    @cached_property
+    def solved(self) -> WorkingField:
+        """What was solved for, on the triangles it was solved on."""
+        if self.on_working is not None:
+            return self.on_working
+        own = WorkingTriangulation.of(self.surface.triangulation)
+        return WorkingField(own, self.H, self.theta, self.half_log_aspect, self.error_density)
+
+    def turned(self, angle: float) -> CrossField:
+        """Return it with all crosses turned by an angle, as if nothing fixed their direction.
+
+        Parameters
+        ----------
+        angle : float
+            Radians.
+        """
+        inner = self.on_working
+        if inner is not None:
+            inner = replace(inner, theta=inner.theta + angle)
+        return replace(self, theta=self.theta + angle, on_working=inner)
 
     @frozen_property
     def H1(self) -> FloatArray:
@@ -127,16 +197,18 @@ class CrossField:
     @cached_property
     def max_log_aspect(self) -> float:
         """Largest |H2 - H1| away from the triangles around singularities."""
-        singular = np.zeros(self.surface.n_vertices, dtype=bool)
+        t = self.solved.triangulation
+        singular = np.zeros(t.n_vertices, dtype=bool)
         for s in self.singularities:
             singular[self.surface.nearest_vertex(s.point)] = True
-        away = ~singular[self.surface.faces].any(axis=1)
-        return float(self.log_aspect[away].max(initial=0.0))
+        away = ~singular[t.faces].any(axis=1)
+        log_aspect = np.abs(2 * self.solved.half_log_aspect.mean(axis=1))
+        return float(log_aspect[away].max(initial=0.0))
 
     @cached_property
     def energy(self) -> float:
         """The integrability error E (paper, equation intError)."""
-        return float(np.sqrt(self.surface.face_areas @ self.error_density))
+        return float(np.sqrt(self.solved.triangulation.areas @ self.solved.error_density))
 
     @frozen_property
     def u(self) -> FloatArray:

@@ -62,7 +62,7 @@ def align_with_features(
     Parameters
     ----------
     holonomy : Holonomy
-        On a discretisation of the surface's own triangles, with features.
+        On a discretisation with features.
     conjugate : (m, 3) float array
         Corner values of the function whose conjugate the isotropic field is.
     defects : (c,) float array
@@ -81,7 +81,7 @@ def align_with_features(
         angles, corners = angles @ given, corners @ given
     kept, quads = _kept(every, angles, corners)
     d = every.with_features(kept)
-    released = Features(every.surface, every.features.edges[~kept])
+    released = Features(every.surface, every.features.edges[every.feature_edge[~kept]])
     if not kept.any():
         chosen = np.zeros(len(defects)) if turns is None else np.asarray(turns)
         still = np.zeros_like(conjugate)
@@ -130,9 +130,8 @@ def _kept(
     Of the curves beside sectors that contradict each other the one of least worth goes.
     """
     t, h = discretization.triangulation, discretization.feature_halfedges
-    worth = t.lengths.reshape(-1)[h] * (
-        1 + dihedral_angles(discretization.surface)[discretization.features.edges]
-    )
+    bent = dihedral_angles(discretization.surface)[discretization.features.edges]
+    worth = t.lengths.reshape(-1)[h] * (1 + bent[discretization.feature_edge])
     kept = np.ones(len(h), dtype=bool)
     while True:
         among = np.flatnonzero(kept)
@@ -162,13 +161,12 @@ class _Filling:
     """The smoothest Crouzeix-Raviart functions with given values on features, 0 on boundaries."""
 
     def __init__(self, discretization: Discretization) -> None:
-        surface = discretization.surface
-        self._edge = surface.face_edges
-        stiffness = crouzeix_raviart(
-            discretization.triangulation, self._edge.reshape(-1), len(surface.edges)
-        )
-        self._features = discretization.features.edges
-        free = surface.edge_faces[:, 1] >= 0
+        t = discretization.triangulation
+        self._edge = t.face_edges
+        h = t.edge_halfedges
+        stiffness = crouzeix_raviart(t, self._edge.reshape(-1), len(h))
+        self._features = self._edge.reshape(-1)[discretization.feature_halfedges]
+        free = t.twin[h] >= 0
         free[self._features] = False
         self._free = np.flatnonzero(free)
         self._own = csc_array(stiffness[self._features][:, self._features])

@@ -98,12 +98,12 @@ class Holonomy:
         """(c, m, 3) the potentials at the corners of the surface's own triangles.
 
         From one triangle to the next they jump by how often the condition's path crosses; inside
-        triangles whose edges the operator has flipped they are linear only in between vertices.
+        triangles that the operator has others for they are linear only in between vertices.
         """
         d = self.discretization
         if d.working.unchanged:
             return self._corner_values
-        nodal = np.empty((len(self.conditions), d.surface.n_vertices))
+        nodal = np.empty((len(self.conditions), d.triangulation.n_vertices))
         nodal[:, d.triangulation.faces] = self._corner_values
         faces = np.arange(d.surface.n_faces)
         centre = self.values_at(faces, np.full((len(faces), 3), 1 / 3))[:, :, None]
@@ -126,12 +126,8 @@ class Holonomy:
             Up to whole numbers.
         """
         d = self.discretization
-        own = d.surface.triangulation.corner_positions[faces]
-        located = d.working.locate(faces, np.einsum("ki,kid->kd", weights, own))
-        corners = d.triangulation.corner_positions[located.face]
-        third = located.place[:, 1] / corners[:, 2, 1]
-        second = (located.place[:, 0] - third * corners[:, 2, 0]) / corners[:, 1, 0]
-        at = np.stack([1 - second - third, second, third], axis=1)
+        located = d.working.locate(faces, d.surface.triangulation.places(faces, weights))
+        at = d.triangulation.weights_at(located.face, located.place)
         return np.asarray(np.einsum("ckj,kj->ck", self._corner_values[:, located.face], at))
 
     def defects(self, singularities: Iterable[Singularity]) -> FloatArray:

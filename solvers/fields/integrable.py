@@ -11,7 +11,7 @@ import numpy.typing as npt
 from solvers.fields.aligned import AlignedField, IntegratedField
 from solvers.fields.alternating import alternate
 from solvers.fields.anisotropic import Descent, MinimumNormNewton, NewtonStep
-from solvers.fields.crossfield import Convergence, CrossField
+from solvers.fields.crossfield import Convergence
 from solvers.fields.sizes import size_map
 from solvers.fields.verdict import NEARLY_INTEGRABLE
 from solvers.progress import Progress, relayed
@@ -104,9 +104,9 @@ def anisotropic_field(
     >>> bool(abs(field.boundary_misalignment).max() < 1e-9)
     True
     """
-    target = np.zeros((aligned.isotropic.surface.n_faces, 2, 3))
+    target = np.zeros((aligned.integrability.triangulation.n_faces, 2, 3))
     if sizes is not None:
-        target = _log_targets(aligned.isotropic, sizes)
+        target = _log_targets(aligned, sizes)
     newton = MinimumNormNewton(aligned.integrability)
     integrated = yield from _shown(aligned, "anisotropic", _solve(aligned, newton))
     if (
@@ -208,11 +208,20 @@ def _shown(
     return (yield from relayed(iteration, show))
 
 
-def _log_targets(field: CrossField, sizes: npt.ArrayLike) -> FloatArray:
+def _log_targets(aligned: AlignedField, sizes: npt.ArrayLike) -> FloatArray:
     """Return the (m, 2, 3) logarithms of the sizes along u and v at the corners."""
-    values = size_map(sizes, field.surface.n_vertices)
+    d, field = aligned.integrability.discretization, aligned.isotropic
+    surface, t = d.surface, d.triangulation
+    values = size_map(sizes, surface.n_vertices)
     if values.ndim == 1:
         values = np.stack([values, values], axis=1)
-    corners = np.log(values)[field.surface.faces].transpose(0, 2, 1)
-    swapped = np.abs(field.u[:, 0]) < np.abs(field.v[:, 0])
-    return np.where(swapped[:, None, None], corners[:, ::-1], corners)
+    face, weights = d.vertex_points
+    logarithms = np.einsum("ki,kij->kj", weights, np.log(values)[surface.faces[face]])
+    corners = logarithms[t.faces].transpose(0, 2, 1)
+    centres = d.working.lift(np.arange(t.n_faces), t.corner_positions.mean(axis=1))
+    angle = field.solved.theta + centres.turn
+    along, across = (frame[centres.face, 0] for frame in surface.face_frames)
+    swapped = np.abs(np.cos(angle) * along + np.sin(angle) * across) < np.abs(
+        np.cos(angle) * across - np.sin(angle) * along
+    )
+    return np.asarray(np.where(swapped[:, None, None], corners[:, ::-1], corners))

@@ -18,9 +18,10 @@ from solvers.algebra.operators import lumped_mass, midpoint_offsets, stiffness
 from solvers.errors import CrossviewError, SingularityError
 from solvers.features.edges import Features
 from solvers.fields.connection import CLEARANCE, Discretization
-from solvers.fields.crossfield import Convergence, CrossField
+from solvers.fields.crossfield import Convergence, CrossField, WorkingField
 from solvers.fields.embedded import split_offsets
 from solvers.fields.holonomy import Holonomy
+from solvers.fields.sampled import sampled
 from solvers.number_checks import real_number
 from solvers.singularities.budget import (
     Singularity,
@@ -44,9 +45,6 @@ class IsotropicSolver:
     corners : mapping of int to int, optional
         Index of each boundary vertex where the field turns; by default what `default_corners`
         reads from the interior angles.
-    delaunay : bool, optional
-        Whether to flip edges to intrinsic Delaunay; without, the operator lives on the surface's
-        own triangles and may have negative weights where they are obtuse.
     features : Features, optional
         Of the surface. The field is not aligned with them, but says how far off it is; without
         a boundary all crosses are turned alike, so that it is off as little as may be.
@@ -88,14 +86,13 @@ class IsotropicSolver:
         surface: TriSurface,
         corners: Mapping[int, int] | None = None,
         *,
-        delaunay: bool = True,
         features: Features | None = None,
     ) -> None:
         self.surface = surface
         self.corners = (
             default_corners(surface) if corners is None else checked_corners(surface, corners)
         )
-        self.discretization = Discretization(surface, delaunay=delaunay, features=features)
+        self.discretization = Discretization(surface, features=features)
         matrix = stiffness(self.discretization.triangulation)
         # H is unique up to a constant: the first vertex is pinned, the mean subtracted after.
         self.factorization = factorized(matrix[1:, 1:])
@@ -166,30 +163,37 @@ class IsotropicSolver:
         faces, weights = self.discretization.place([s.point for s in singularities])
         self._check_places(faces, weights)
         right = self._right_hand_side(singularities, faces, weights)
-        h = np.zeros(self.surface.n_vertices)
+        d = self.discretization
+        t = d.triangulation
+        h = np.zeros(t.n_vertices)
         h[1:], residual = self.factorization.certified(right[1:])
         h -= self._mass @ h / self._mass.sum()
         offsets = self._offsets(h, singularities, faces, weights)
-        d = self.discretization
         theta = d.walk(offsets) + self.gauge
         if len(d.features) and not self.surface.boundary_loops:
             theta += d.turn_to_features(theta, offsets)
         defects = d.defects(theta, offsets)
+        none = np.broadcast_to(0.0, (t.n_faces, 3))
+        solved = WorkingField(d.working, h, theta, none, none[:, 0])
+        # theta is conjugate to H.
+        gradient = t.gradients(h[t.faces])
+        seen = sampled(d, solved, np.stack([-gradient[:, 1], gradient[:, 0]], axis=1))
         return CrossField(
             surface=self.surface,
             singularities=singularities,
             corners=self.corners,
             method="isotropic",
-            H=h,
-            theta=self._on_surface(h, theta),
+            H=seen.H,
+            theta=seen.theta,
             defects=defects,
             boundary_misalignment=d.boundary_misalignment(theta, offsets),
             residual=residual,
             max_closing_error=d.max_closing_error(theta, offsets, defects),
-            half_log_aspect=np.broadcast_to(0.0, (self.surface.n_faces, 3)),
-            error_density=np.broadcast_to(0.0, self.surface.n_faces),
+            half_log_aspect=seen.half_log_aspect,
+            error_density=seen.error_density,
             convergence=Convergence(),
             feature_misalignment=d.feature_misalignment(theta, offsets),
+            on_working=None if d.working.unchanged else solved,
         )
 
     def cut_graph(self, singularities: Iterable[Singularity]) -> IntArray:
@@ -219,11 +223,12 @@ class IsotropicSolver:
     def _check_places(self, faces: IntArray, weights: FloatArray) -> None:
         t = self.discretization.triangulation
         vertices = t.faces[faces]
+        boundary = t.tail[t.boundary_halfedges]
         taken: dict[tuple[str, int], int] = {}
         for number, (face, weight) in enumerate(zip(faces, weights, strict=True), start=1):
             at = vertices[number - 1][weight > 0]
             if len(at) == 1:
-                on_boundary = self.surface.boundary_vertices[at[0]]
+                on_boundary = at[0] in boundary
             else:
                 sides = (np.flatnonzero(weight <= CLEARANCE) + 1) % 3
                 on_boundary = (t.twin[3 * face + sides] < 0).any()
@@ -268,14 +273,3 @@ class IsotropicSolver:
                     t.corner_positions[face], weight, singularity.index, h[t.faces[face]]
                 )
         return offsets
-
-    def _on_surface(self, h: FloatArray, theta: FloatArray) -> FloatArray:
-        """Return theta at the surface's own barycentres, in its own frames."""
-        d = self.discretization
-        if d.working.unchanged:
-            return theta
-        t, at = d.triangulation, d.barycentres
-        gradient = t.gradients(h[t.faces])[at.face]
-        from_centre = at.place - t.corner_positions[at.face].mean(axis=1)
-        turn = gradient[:, 0] * from_centre[:, 1] - gradient[:, 1] * from_centre[:, 0]
-        return np.asarray(theta[at.face] + turn - at.turn)

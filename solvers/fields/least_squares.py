@@ -39,7 +39,7 @@ def least_squares_theta(
         theta at the barycentres in the frames of the triangulation, radians.
     """
     d, t = discretization, discretization.triangulation
-    cut = cut_graph(t, d.surface.boundary_loops, d.chain, singular_vertices)
+    cut = cut_graph(t, [t.tail[loop] for loop in d.boundary_loops], d.chain, singular_vertices)
     joined = np.setdiff1d(t.edge_halfedges[t.twin[t.edge_halfedges] >= 0], cut)
     g = t.twin[joined]
     unknown = np.arange(len(t.twin))

@@ -1,8 +1,7 @@
-"""A surface prepared for a configuration: each singularity a vertex, each operator factored once.
+"""A surface prepared for a configuration: each singularity a vertex, its operator factored once.
 
-An isotropic field lives on any triangulation of the surface and takes singularities anywhere. A
-field that is aligned everywhere, or has two sizes, lives on the surface's own triangles and has
-its singularities at vertices. `prepare` makes both true, so that nothing later has to ask.
+An isotropic field takes singularities anywhere. A field that is aligned everywhere, or has two
+sizes, has them at vertices. `prepare` makes that true, so that nothing later has to ask.
 """
 
 from __future__ import annotations
@@ -20,7 +19,6 @@ from solvers.singularities.budget import (
     checked_singularities,
     default_corners,
 )
-from solvers.surface.delaunay import TOLERANCE
 from solvers.surface.points import SurfacePoint
 from solvers.surface.refinement import LEVELS, Refinement, refine_at, refine_everywhere
 from solvers.surface.trisurface import TriSurface
@@ -28,7 +26,7 @@ from solvers.surface.trisurface import TriSurface
 
 @dataclass(frozen=True, eq=False)
 class Operators:
-    """The two factored operators of a surface, each made when it is first asked for.
+    """What is factored for a surface, once and when it is first asked for.
 
     Parameters
     ----------
@@ -41,12 +39,10 @@ class Operators:
 
     Examples
     --------
-    Where the surface's triangles are Delaunay, both are one:
-
     >>> from solvers.fields import prepare
     >>> from solvers.primitives import square
     >>> operators = prepare(square(n=4)).operators
-    >>> operators.own is operators.delaunay
+    >>> operators.solver is operators.solver
     True
     """
 
@@ -55,18 +51,8 @@ class Operators:
     features: Features
 
     @cached_property
-    def own(self) -> IsotropicSolver:
-        """On the surface's own triangles."""
-        return IsotropicSolver(self.surface, self.corners, delaunay=False, features=self.features)
-
-    @cached_property
-    def delaunay(self) -> IsotropicSolver:
-        """On the intrinsic Delaunay triangulation, the better one for an isotropic field.
-
-        The same as `own` where the surface's triangles are Delaunay.
-        """
-        if (self.surface.triangulation.weights >= -TOLERANCE).all():
-            return self.own
+    def solver(self) -> IsotropicSolver:
+        """On the working triangulation of the surface."""
         return IsotropicSolver(self.surface, self.corners, features=self.features)
 
 
@@ -105,7 +91,7 @@ class PreparedSurface:
     >>> two = Singularity(surface.closest_point([-0.7, 0, 0]), 5)
     >>> prepared = prepare(surface, [one, two])
     >>> swapped = prepared.with_valences([replace(one, valence=5), replace(two, valence=3)])
-    >>> swapped.operators.own is prepared.operators.own
+    >>> swapped.operators.solver is prepared.operators.solver
     True
     """
 
@@ -201,7 +187,7 @@ def prepare(
     Returns
     -------
     PreparedSurface
-        The refined surface, its factored operators, and the configuration on it.
+        The refined surface, what is factored for it, and the configuration on it.
 
     Raises
     ------

@@ -106,7 +106,7 @@ def arrange(
     LayoutError
         If a piece is not a rectangle.
     """
-    loops = boundary_halfedges(surface)
+    loops = boundary_halfedges(traces.chart, surface)
     curves = with_loops(traces, loops)
     build = _Builder()
     for node in nodes:

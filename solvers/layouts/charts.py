@@ -17,6 +17,7 @@ from solvers.surface.triangulation import (
     IntrinsicTriangulation,
     previous_halfedge,
 )
+from solvers.surface.working import WorkingTriangulation
 
 ComplexArray = npt.NDArray[np.complex128]
 
@@ -30,8 +31,8 @@ class Chart:
 
     Parameters
     ----------
-    triangulation : IntrinsicTriangulation
-        The triangles.
+    working : WorkingTriangulation
+        The triangles, and where they lie on a surface.
     images : (m, 3) complex array
         Image of each halfedge in its triangle's frame.
     period_jumps : (3 m,) int array
@@ -39,21 +40,28 @@ class Chart:
         frame of its twin's.
     """
 
-    triangulation: IntrinsicTriangulation
+    working: WorkingTriangulation
     images: ComplexArray
     period_jumps: IntArray
 
     @classmethod
     def of_field(cls, field: CrossField) -> Chart:
         """Return each triangle by itself, turned and scaled by its own cross and sizes."""
-        t = field.surface.triangulation
-        own = np.exp(1j * (t.directions.reshape(-1, 3) - field.theta[:, None])) * t.lengths
-        along, across = (-h.mean(axis=1)[:, None] for h in (field.H1, field.H2))
+        solved = field.solved
+        t, theta = solved.triangulation, solved.theta
+        own = np.exp(1j * (t.directions.reshape(-1, 3) - theta[:, None])) * t.lengths
+        mean, half = solved.H[t.faces].mean(axis=1), solved.half_log_aspect.mean(axis=1)
+        along, across = (-h[:, None] for h in (mean - half, mean + half))
         images = np.exp(along) * own.real + 1j * np.exp(across) * own.imag
         face = np.repeat(np.arange(t.n_faces), 3)
-        turn = field.theta[face] + t.transport - field.theta[t.twin // 3]
+        turn = theta[face] + t.transport - theta[t.twin // 3]
         turns = np.where(t.twin >= 0, np.rint(turn / QUARTER), 0).astype(np.int64)
-        return cls(t, images, turns)
+        return cls(solved.working, images, turns)
+
+    @property
+    def triangulation(self) -> IntrinsicTriangulation:
+        """The triangles."""
+        return self.working.triangulation
 
     @cached_property
     def corners(self) -> ComplexArray:

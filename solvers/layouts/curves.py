@@ -78,12 +78,10 @@ def along_edges(
     )
 
 
-def boundary_halfedges(surface: TriSurface) -> tuple[IntArray, ...]:
+def boundary_halfedges(chart: Chart, surface: TriSurface) -> tuple[IntArray, ...]:
     """Return the halfedges of each boundary loop, in the order of `TriSurface.boundary_loops`."""
-    t = surface.triangulation
-    from_vertex = np.full(surface.n_vertices, -1, dtype=np.int64)
-    from_vertex[t.tail[t.boundary_halfedges]] = t.boundary_halfedges
-    return tuple(from_vertex[loop] for loop in surface.boundary_loops)
+    first = [int(loop[0]) for loop in surface.boundary_loops]
+    return chart.triangulation.boundary_loops_from(first)
 
 
 def bare_loops(

@@ -75,7 +75,8 @@ class Drawing:
 
     def offsets(self) -> csc_array:
         """Return how far nodes that traces pass too closely are off them, as rows of the map."""
-        rimmed = with_rims(self.traces, self._nodes, boundary_halfedges(self._map.surface))
+        loops = boundary_halfedges(self._map.chart, self._map.surface)
+        rimmed = with_rims(self.traces, self._nodes, loops)
         same = rimmed is self.traces
         crossed = self.crossings if same else crossings(rimmed.chart, rimmed.chords)
         found = passing(rimmed, crossed, len(self._nodes))
@@ -100,7 +101,7 @@ class Drawing:
 
     def missing(self) -> tuple[int, int] | None:
         """Return where traces are missing, and the number of quads that meet there."""
-        loops = boundary_halfedges(self._map.surface)
+        loops = boundary_halfedges(self._map.chart, self._map.surface)
         if not loops and not self._nodes:
             return 0, 4  # a torus without singularities
         bare = bare_loops(loops, self._nodes, self.traces, self._stops)

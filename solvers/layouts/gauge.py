@@ -106,9 +106,9 @@ def joined_field(prepared: PreparedSurface, turns: Sequence[int] | None = None) 
     >>> layout.patches, layout.tmesh.n_arcs
     (6, 12)
     """
-    own = prepared.operators.own
-    turned = in_joining_gauge(own, prepared.singularities)
-    like = None if turned is own else turned.solve(prepared.singularities)
+    solver = prepared.operators.solver
+    turned = in_joining_gauge(solver, prepared.singularities)
+    like = None if turned is solver else turned.solve(prepared.singularities)
     return aligned_field(prepared, turns, like=like)
 
 
@@ -130,7 +130,7 @@ def joining_gauge(field: CrossField) -> float:
     """
     turn = 0.0
     for _ in range(ROUNDS):
-        found = _turn(replace(field, theta=field.theta + turn))
+        found = _turn(field.turned(turn))
         turn += found
         if abs(found) < SETTLED:
             break
@@ -166,9 +166,10 @@ def _chart(field: CrossField) -> Chart:
     As theta is conjugate to H, two triangles have nearly the same image of the side they share.
     With that of their barycentres alone, errors along a curve add up to half a degree.
     """
-    t = field.surface.triangulation
-    size = (field.H[t.faces] + field.H[t.faces[:, [1, 2, 0]]]) / 2
-    angle = t.directions.reshape(-1, 3) - field.theta[:, None] - midpoint_offsets(t, field.H)
+    solved = field.solved
+    t = solved.triangulation
+    size = (solved.H[t.faces] + solved.H[t.faces[:, [1, 2, 0]]]) / 2
+    angle = t.directions.reshape(-1, 3) - solved.theta[:, None] - midpoint_offsets(t, solved.H)
     sides = t.lengths * np.exp(-size + 1j * angle)
     sides -= sides.mean(axis=1)[:, None]
     rough = Chart.of_field(field)

@@ -80,14 +80,16 @@ class JoinedMap:
 
     def _chart(self) -> Chart:
         matching, images = self._fit.matching, self._fit.map.images @ np.array([1, 1j])
-        return Chart(matching.triangulation, images, matching.period_jumps)
+        return Chart(matching.working, images, matching.period_jumps)
 
     def require_upright(self) -> None:
         """Raise `LayoutError` if triangles are inverted."""
         over = self.inverted
         if len(over) == 0:
             return
-        field = self.integrated.field
+        field, t = self.integrated.field, self.chart.triangulation
+        centres = t.corner_positions[over].mean(axis=1)
+        over = self.chart.working.lift(over, centres).face
         places = field.surface.positions([s.point for s in field.singularities])
         where = ""
         if len(places):

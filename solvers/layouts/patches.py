@@ -88,6 +88,7 @@ def sampled(surface: TriSurface, arrangement: Arrangement) -> PatchMesh:
         np.concatenate(ways) * along,
     )
     weights = barycentric_in(curves.chart, face, place)
+    face, weights = curves.chart.working.lift_points(face, weights)
     points = np.einsum("kc,kcd->kd", weights, surface.vertices[surface.faces[face]])
     patch = np.repeat(np.arange(len(quads)), [len(q) for q in quads])
     return PatchMesh(points, np.concatenate(quads), patch)

@@ -15,8 +15,14 @@ from solvers.layouts.motorcycles import Stops, stops
 from solvers.layouts.nodes import Node, singular_nodes, starts_at
 from solvers.layouts.tracing import BORDER, LENGTH, Traces, trace
 from solvers.number_checks import real_number
-from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
+from solvers.surface.triangulation import (
+    BoolArray,
+    FloatArray,
+    IntArray,
+    IntrinsicTriangulation,
+)
 from solvers.surface.trisurface import TriSurface
+from solvers.surface.working import weights_inside
 
 SINGULARITY, BOUNDARY, T_JUNCTION, OPEN = range(4)
 """Where a separatrix ends; `OPEN`: nowhere, it was cut for its length."""
@@ -119,10 +125,13 @@ def as_curves(
     size = np.maximum(left.end - left.start, 1e-300)
     cut = np.clip((stopped.at[left.trace] - left.start) / size, 0.0, 1.0)
     start, end = (
-        _positions(surface, left.face, side, t)
+        _places(traces.chart.triangulation, left.face, side, t)
         for side, t in ((left.side_in, left.t_in), (left.side_out, left.t_out))
     )
-    end = start + cut[:, None] * (end - start)
+    working = traces.chart.working
+    pieces = working.lift_segments(left.face, start, start + cut[:, None] * (end - start))
+    start, end = (_positions(surface, pieces.face, pieces.ends[:, i]) for i in (0, 1))
+    curve = curve[pieces.line]
     last = np.flatnonzero(np.diff(curve, append=-1))
     count = np.bincount(curve, minlength=int(stopped.kept.sum())) + 1
     points = np.insert(start, last + 1, end[last], axis=0)
@@ -135,11 +144,19 @@ def as_curves(
     return Separatrices(surface, points, offsets, valence[source], ends[stopped.kept])
 
 
-def _positions(surface: TriSurface, face: IntArray, side: IntArray, t: FloatArray) -> FloatArray:
-    """Return places (c, 3) on sides of triangles."""
-    tail = surface.vertices[surface.faces[face, side]]
-    head = surface.vertices[surface.faces[face, (side + 1) % 3]]
+def _places(
+    triangulation: IntrinsicTriangulation, face: IntArray, side: IntArray, t: FloatArray
+) -> FloatArray:
+    """Return places (c, 2) on sides of triangles, in their frames."""
+    tail = triangulation.corner_positions[face, side]
+    head = triangulation.corner_positions[face, (side + 1) % 3]
     return np.asarray(tail + t[:, None] * (head - tail))
+
+
+def _positions(surface: TriSurface, face: IntArray, place: FloatArray) -> FloatArray:
+    """Return places (c, 3) given in the frames of triangles."""
+    weights = weights_inside(surface.triangulation, face, place)
+    return np.asarray(np.einsum("ki,kij->kj", weights, surface.vertices[surface.faces[face]]))
 
 
 def field_separatrices(field: CrossField, longest: float = LONGEST) -> Separatrices:

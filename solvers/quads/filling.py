@@ -166,7 +166,7 @@ class _Points:
         return number
 
     def located(self) -> tuple[IntArray, FloatArray]:
-        """Return the triangle (k,) and the weights (k, 3) there of every vertex."""
+        """Return the surface's triangle (k,) and the weights (k, 3) there of every vertex."""
         curves = self.arrangement.curves
         chart = curves.chart
         curve, at = np.concatenate(self._curve), np.concatenate(self._at)
@@ -181,7 +181,7 @@ class _Points:
         led = way != 0
         along = AXES[curves.chords.axis[chord[led]]]
         face[led], place[led] = walk(chart, face[led], place[led], way[led] * along)
-        return face, barycentric_in(chart, face, place)
+        return chart.working.lift_points(face, barycentric_in(chart, face, place))
 
     def loops(self) -> IntArray:
         """Return the number of the boundary loop each vertex lies on, or -1."""

@@ -10,8 +10,8 @@ from solvers.surface.homology import HandleLoops, handle_loops
 from solvers.surface.points import SurfacePoint
 from solvers.surface.refinement import LEVELS, Refinement, refine_at, refine_everywhere
 from solvers.surface.sectors import corner_sectors
+from solvers.surface.shaping import parted, shaped
 from solvers.surface.symmetries import Isometry, isometries
-from solvers.surface.shaping import shaped
 from solvers.surface.triangulation import (
     QUARTER,
     BoolArray,
@@ -47,6 +47,7 @@ __all__ = [
     "handle_loops",
     "intrinsic_delaunay",
     "isometries",
+    "parted",
     "problems",
     "refine_at",
     "refine_everywhere",

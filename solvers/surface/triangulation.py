@@ -7,6 +7,8 @@ from lengths, so the same operators serve an embedded surface and its intrinsic 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import numpy.typing as npt
 
@@ -51,7 +53,8 @@ def laid_out(lengths: FloatArray) -> FloatArray:
     first, second, third = lengths.T
     flat = np.zeros((len(lengths), 3, 2))
     flat[:, 1, 0] = first
-    flat[:, 2, 0] = (first**2 + third**2 - second**2) / (2 * first)
+    # The difference of squares as a product: exact enough where the first side is short.
+    flat[:, 2, 0] = first / 2 + (third - second) * (third + second) / (2 * first)
     flat[:, 2, 1] = 2 * heron(lengths) / first
     return flat
 
@@ -118,6 +121,16 @@ class IntrinsicTriangulation:
         """(ne,) the representing halfedge of each edge, the lower-numbered of the two."""
         h = np.arange(len(self.twin))
         return np.flatnonzero((self.twin < 0) | (h < self.twin))
+
+    @frozen_property
+    def face_edges(self) -> IntArray:
+        """(m, 3) the edge that joins corner i and corner i + 1 of each face."""
+        h = self.edge_halfedges
+        edge = np.empty(len(self.twin), dtype=np.int64)
+        edge[h] = np.arange(len(h))
+        inner = self.twin[h] >= 0
+        edge[self.twin[h[inner]]] = np.flatnonzero(inner)
+        return edge.reshape(-1, 3)
 
     @frozen_property
     def boundary_halfedges(self) -> IntArray:
@@ -194,6 +207,64 @@ class IntrinsicTriangulation:
         opposite = p[[2, 0, 1]] - p[[1, 2, 0]]
         turned = np.stack([-opposite[:, 1], opposite[:, 0]], axis=1)
         return np.asarray((turned / (2 * self.areas)).transpose(2, 0, 1))
+
+    def boundary_loops_from(self, vertices: Sequence[int]) -> tuple[IntArray, ...]:
+        """Return the halfedges of boundary loops, in order.
+
+        Parameters
+        ----------
+        vertices : sequence of int
+            A vertex of each; it starts there.
+
+        Returns
+        -------
+        tuple of (k,) int array
+        """
+        h = self.boundary_halfedges
+        leaving = dict(zip(self.tail[h].tolist(), h.tolist(), strict=True))
+        head, loops = self.head, []
+        for vertex in vertices:
+            loop = [leaving[vertex]]
+            while head[loop[-1]] != vertex:
+                loop.append(leaving[int(head[loop[-1]])])
+            loops.append(np.array(loop, dtype=np.int64))
+        return tuple(loops)
+
+    def places(self, face: IntArray, weights: FloatArray) -> FloatArray:
+        """Return points of triangles in these triangles' frames.
+
+        Parameters
+        ----------
+        face : (k,) int array
+            Their triangles.
+        weights : (k, 3) float array
+            Their barycentric weights.
+
+        Returns
+        -------
+        (k, 2) float array
+        """
+        return np.asarray(np.einsum("ki,kij->kj", weights, self.corner_positions[face]))
+
+    def weights_at(self, face: IntArray, place: FloatArray) -> FloatArray:
+        """Return the barycentric weights of points of triangles.
+
+        Parameters
+        ----------
+        face : (k,) int array
+            Their triangles.
+        place : (k, 2) float array
+            Where, in these triangles' frames.
+
+        Returns
+        -------
+        (k, 3) float array
+            With sum 1; negative outside.
+        """
+        corners = self.corner_positions[face]
+        third = place[:, 1] / corners[:, 2, 1]
+        second = (place[:, 0] - third * corners[:, 2, 0]) / corners[:, 1, 0]
+        return np.stack([1 - second - third, second, third], axis=1)
 
     def gradients(self, values: FloatArray) -> FloatArray:
         """Return the gradient of piecewise linear functions in each face's frame.

@@ -89,16 +89,10 @@ class TriSurface:
         t = self.triangulation
         return np.stack([t.tail, t.head], axis=1)[t.edge_halfedges]
 
-    @frozen_property
+    @property
     def face_edges(self) -> IntArray:
         """(m, 3) the edge that joins corner i and corner i + 1 of each face."""
-        t = self.triangulation
-        h = t.edge_halfedges
-        edge = np.empty(3 * self.n_faces, dtype=np.int64)
-        edge[h] = np.arange(len(h))
-        inner = t.twin[h] >= 0
-        edge[t.twin[h[inner]]] = np.flatnonzero(inner)
-        return edge.reshape(-1, 3)
+        return self.triangulation.face_edges
 
     @frozen_property
     def edge_faces(self) -> IntArray:

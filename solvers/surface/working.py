@@ -229,6 +229,28 @@ class WorkingTriangulation:
             turn[who] += turned
         return Located(face, as_real(at), turn)
 
+    def lift_points(self, face: IntArray, weights: FloatArray) -> tuple[IntArray, FloatArray]:
+        """Return points of the triangulation as points of the original.
+
+        Parameters
+        ----------
+        face : (k,) int array
+            Triangle of each point.
+        weights : (k, 3) float array
+            Its barycentric weights.
+
+        Returns
+        -------
+        face : (k,) int array
+            Its original triangle.
+        weights : (k, 3) float array
+            Its barycentric weights there, none negative.
+        """
+        if self.unchanged:
+            return face, weights
+        lifted = self.lift(face, self.triangulation.places(face, weights))
+        return lifted.face, weights_inside(self.original, lifted.face, lifted.place)
+
     def lift_segments(self, face: IntArray, start: FloatArray, end: FloatArray) -> Segments:
         """Return straight lines inside triangles as lines on the original.
 
@@ -262,6 +284,19 @@ class WorkingTriangulation:
             who = np.flatnonzero(patch >= 0)
             if len(who):
                 yield round_, who, patch[who]
+
+
+def weights_inside(t: IntrinsicTriangulation, face: IntArray, place: FloatArray) -> FloatArray:
+    """Return the weights (k, 3) of places in triangles, moved inside where rounding put them out.
+
+    First towards the first side, then along it: in flat triangles rounding makes large weights, but
+    moves no point far.
+    """
+    corners = t.corner_positions[face]
+    third = np.clip(place[:, 1] / corners[:, 2, 1], 0.0, 1.0)
+    second = (place[:, 0] - third * corners[:, 2, 0]) / corners[:, 1, 0]
+    second = np.clip(second, 0.0, 1.0 - third)
+    return np.stack([1.0 - second - third, second, third], axis=1)
 
 
 class _Pieces:

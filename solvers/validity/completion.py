@@ -135,7 +135,8 @@ class _Places:
                 f"{self._open.sum()} vertices inside are free",
                 "give a finer surface, or add some of a higher valence first",
             )
-        score = np.where(open_, self._index * self._field(others) + self._bias, -np.inf)
+        h = self._field(others)[: len(open_)]  # there may be further vertices
+        score = np.where(open_, self._index * h + self._bias, -np.inf)
         best = int(np.argmax(score))
         self.chosen[number : number + 1] = [best]
 

@@ -177,7 +177,7 @@ class Guide:
         return lines.made()
 
     def _exact(self, lines: _Crossings, condition: int, level: float) -> _Crossings:
-        """Return the crossings moved along edges that the operator has flipped away.
+        """Return the crossings moved along edges that the operator has not.
 
         Between their ends the potential bends; it is followed by regula falsi (Illinois).
         """

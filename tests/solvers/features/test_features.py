@@ -202,31 +202,29 @@ def test_a_cube_with_its_edges_marked_has_a_grid_on_each_side(
 def test_the_isotropic_field_reports_its_misalignment() -> None:
     surface = BUILTIN["cylinder"](n=48)
     along = circle(surface, 0.0)
-    for delaunay in (True, False):
-        field = IsotropicSolver(surface, delaunay=delaunay, features=along).solve([])
-        assert misalignment(field) < 1e-9
+    field = IsotropicSolver(surface, features=along).solve([])
+    assert misalignment(field) < 1e-9
     # the field runs around and along the axis; a slanted edge is off by its slope
     ends = surface.vertices[surface.edges]
     slanted = (np.abs(ends[:, 0, 2] - ends[:, 1, 2]) > 1e-9) & (
         np.linalg.norm(ends[:, 0, :2] - ends[:, 1, :2], axis=1) > 1e-9
     )
     one = no_features(surface).united(np.flatnonzero(slanted)[10:11])
-    field = IsotropicSolver(surface, delaunay=False, features=one).solve([])
+    field = IsotropicSolver(surface, features=one).solve([])
     run_along = ends[one.edges[0], 1] - ends[one.edges[0], 0]
     slope = np.degrees(np.arctan2(abs(run_along[2]), np.linalg.norm(run_along[:2])))
     expected = min(slope, 90 - slope)
     assert misalignment(field) == pytest.approx(expected, abs=1)
 
 
-@pytest.mark.parametrize("delaunay", [True, False])
-def test_where_nothing_else_fixes_the_crosses_they_turn_to_the_features(delaunay: bool) -> None:
+def test_where_nothing_else_fixes_the_crosses_they_turn_to_the_features() -> None:
     surface = cube()
     slanted = TriSurface(surface.vertices, np.roll(surface.faces, 1, axis=1))
     features = Features(slanted, sharp_edges(slanted, 40))
     corners = at_vertices(slanted, features.corners.tolist(), [3] * 8)
-    field = IsotropicSolver(slanted, delaunay=delaunay, features=features).solve(corners)
+    field = IsotropicSolver(slanted, features=features).solve(corners)
     assert misalignment(field) < 1e-8
-    plain = IsotropicSolver(slanted, delaunay=delaunay).solve(corners)
+    plain = IsotropicSolver(slanted).solve(corners)
     off = np.degrees(wrap(field.theta - plain.theta, np.pi / 2))
     assert np.ptp(off) < 1e-9
     assert np.abs(off).max() > 1  # the first edge of the first triangle is a diagonal

@@ -45,10 +45,9 @@ def test_the_walk_solves_the_least_squares_problem_of_the_paper(surface: TriSurf
     vertices = [
         surface.faces[s.point.face, int(np.argmax(s.point.barycentric))] for s in configuration
     ]
-    walked = solver.discretization.walk(
-        midpoint_offsets(solver.discretization.triangulation, field.H)
-    )
-    solved = least_squares_theta(solver.discretization, field.H, np.array(vertices))
+    h = field.solved.H
+    walked = solver.discretization.walk(midpoint_offsets(solver.discretization.triangulation, h))
+    solved = least_squares_theta(solver.discretization, h, np.array(vertices))
     assert np.abs(solved - walked).max() < 1e-9
 
 

@@ -67,7 +67,7 @@ def test_other_valences_keep_the_factors_and_other_places_are_refused() -> None:
     prepared = prepare(surface, [one, other])
     swapped = prepared.with_valences([replace(one, valence=5), replace(other, valence=3)])
     assert [s.valence for s in swapped.singularities] == [5, 3]
-    assert swapped.operators.own is prepared.operators.own
+    assert swapped.operators.solver is prepared.operators.solver
     with pytest.raises(SingularityError, match="elsewhere"):
         prepared.with_valences([one, replace(other, point=one.point)])
     with pytest.raises(SingularityError, match="elsewhere"):
@@ -87,7 +87,7 @@ def test_where_nothing_fixes_the_crosses_they_turn_to_those_of_another_field() -
     corners = np.stack(np.meshgrid(*[[-1, 1]] * 3), axis=-1).reshape(-1, 3)
     configuration = [Singularity(surface.closest_point(c), 3) for c in corners / np.sqrt(3)]
     prepared = prepare(surface, configuration, refine=1)
-    like = prepared.operators.delaunay.in_gauge(0.3).solve(prepared.singularities)
+    like = prepared.operators.solver.in_gauge(0.3).solve(prepared.singularities)
     aligned = aligned_field(prepared, like=like)
     assert abs(aligned.isotropic.turn_to(like)) < 1e-9
     assert abs(aligned_field(prepared).isotropic.turn_to(like)) > 0.05

@@ -39,7 +39,7 @@ def field() -> CrossField:
 
 def with_energy(field: CrossField, energy: float) -> CrossField:
     everywhere = np.full(field.surface.n_faces, energy**2 / field.surface.area)
-    return replace(field, error_density=everywhere)
+    return replace(field, error_density=everywhere, on_working=None)
 
 
 def test_of_a_field_that_does_not_close_no_map_is_found(field: CrossField) -> None:
@@ -137,7 +137,8 @@ def test_a_fifth_of_a_degree_on_an_annulus_is_as_good_as_none() -> None:
 
 def test_quads_twenty_times_longer_than_wide_are_stretched(field: CrossField) -> None:
     for ratio, status in ((19.0, "valid"), (21.0, "stretched")):
-        stretched = replace(field, half_log_aspect=np.full((len(field.u), 3), np.log(ratio) / 2))
+        half = np.full((len(field.u), 3), np.log(ratio) / 2)
+        stretched = replace(field, half_log_aspect=half, on_working=None)
         verdict = judge(stretched, 0)
         assert (verdict.status, verdict.refused) == (status, False)
     assert "factor of 21" in verdict.reason

@@ -173,7 +173,7 @@ def test_crosses_that_nothing_fixes_turn_to_where_separatrices_join(
     name: str, angle: float
 ) -> None:
     surface = BUILTIN[name]()
-    solver = IsotropicSolver(surface, delaunay=False).in_gauge(angle)
+    solver = IsotropicSolver(surface).in_gauge(angle)
     singularities = [
         Singularity(surface.point_at_vertex(_nearest(surface, p)), 3) for p in cube_corners()
     ]

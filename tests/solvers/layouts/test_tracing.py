@@ -14,6 +14,7 @@ from solvers.primitives import BUILTIN
 from solvers.singularities.budget import Singularity
 from solvers.surface.points import SurfacePoint
 from solvers.surface.trisurface import TriSurface
+from solvers.surface.working import WorkingTriangulation
 from tests.solvers.layouts.fields import FIELDS, at_places, layout_of
 
 
@@ -21,7 +22,8 @@ def flat_chart(surface: TriSurface) -> Chart:
     """A planar surface is its own map."""
     t = surface.triangulation
     corners = surface.vertices[surface.faces] @ np.array([1, 1j, 0])
-    return Chart(t, corners[:, [1, 2, 0]] - corners, np.zeros(3 * t.n_faces, dtype=np.int64))
+    working = WorkingTriangulation.of(t)
+    return Chart(working, corners[:, [1, 2, 0]] - corners, np.zeros(3 * t.n_faces, dtype=np.int64))
 
 
 def test_traces_of_a_plane_are_its_axes() -> None:

@@ -52,7 +52,9 @@ def test_quads_of_sectors_add_up_to_valences_and_corners() -> None:
     matching = Matching.of(start.integrability)
     valence = np.bincount(matching.vertex, matching.quads)
     prepared = start.prepared
-    expected = np.where(prepared.surface.boundary_vertices, 2, 4)
+    t = matching.triangulation
+    expected = np.full(t.n_vertices, 4)
+    expected[t.tail[t.boundary_halfedges]] = 2
     for s in prepared.singularities:
         expected[prepared.surface.nearest_vertex(s.point)] = s.valence
     assert_array_equal(valence, expected)
