@@ -16,7 +16,7 @@ import numpy as np
 
 from solvers.errors import CrossviewError
 from solvers.features.edges import Features, no_features
-from solvers.features.sectors import sectors_between
+from solvers.features.sectors import Sectors, sectors_between
 from solvers.fields.crossfield import Convergence, CrossField, WorkingField
 from solvers.fields.feature_alignment import align_with_features
 from solvers.fields.integrability import Integrability
@@ -105,14 +105,18 @@ class AlignedField:
         return Integrability(i.discretization, conjugate, i.period_jumps, i.features, turning)
 
     @cached_property
+    def sectors(self) -> Sectors:
+        """What features and boundary cut the neighbourhoods of vertices into, as it is solved."""
+        return sectors_between(self.integrability.triangulation, self.integrability.features)
+
+    @cached_property
     def forced_corners(self) -> IntArray:
         """Regular vertices of features where quads meet in another number than the angles ask for.
 
         There the singularities on both sides of a curve do not fit it.
         """
-        i = self.integrability
+        i, found = self.integrability, self.sectors
         t, features = i.triangulation, i.discretization.features
-        found = sectors_between(t, i.features)
         # Over a corner, edge to edge, the crosses turn as from one midpoint to the other.
         off = np.abs(found.total(turned_over_corners(i.offsets)))
         regular = np.zeros(t.n_vertices, dtype=bool)

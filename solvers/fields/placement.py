@@ -168,12 +168,16 @@ class _Placement:
         self._index[sites] = np.rint(pairs.k).astype(np.int64)
 
     def solve(self, right: FloatArray) -> FloatArray:
-        """Return S^+ of loads (n,) or (n, k), what is missing in their sums spread evenly."""
+        """Return S^+ of loads (n,) or (n, k), what is missing in their sums spread evenly.
+
+        The solver's triangulation may have further vertices, without loads.
+        """
         spread = self._mass / self._mass.sum()
-        balanced = right - np.multiply.outer(spread, right.sum(axis=0))
+        balanced = -np.multiply.outer(spread, right.sum(axis=0))
+        balanced[: len(right)] += right
         h = np.zeros_like(balanced)
         h[1:] = self._solver.factorization.solve(balanced[1:])
-        return np.asarray(h - spread @ h)
+        return np.asarray((h - spread @ h)[: len(right)])
 
     def field(self) -> FloatArray:
         """Return H (n,) of the indices as they are."""
@@ -209,7 +213,7 @@ class _Placement:
 
     @cached_property
     def _curvature(self) -> FloatArray:
-        curvature = self._solver.discretization.triangulation.curvatures.copy()
+        curvature = self._surface.angle_defects.copy()
         for vertex, turning in self._solver.corners.items():
             curvature[vertex] -= QUARTER * turning
         return curvature

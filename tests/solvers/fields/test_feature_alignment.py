@@ -61,7 +61,7 @@ def test_around_a_valence_of_five_there_is_room_for_all() -> None:
     five = at_vertices(surface, [0], [5])
     aligned = aligned_field(prepare(surface, five, refine=0, corners=corners, features=features))
     assert len(aligned.released) == 0
-    at_centre = aligned.features.sectors.vertex == 0
+    at_centre = aligned.sectors.vertex == 0
     assert quads(aligned)[at_centre] == pytest.approx(np.ones(5))
 
 
@@ -80,7 +80,7 @@ def test_each_sector_of_real_surfaces_has_a_quad(name: str) -> None:
     features = Features(surface, sharp_edges(surface, 40))
     found = run(natural_singularities(surface, "globally-optimal", features=features))
     aligned = aligned_field(prepare(surface, found, refine=0, features=features))
-    sectors = aligned.features.sectors
+    sectors = aligned.sectors
     beside = (sectors.start >= 0) | (sectors.end >= 0)
     assert quads(aligned)[beside].min(initial=1.0) > 1 - 1e-6
 

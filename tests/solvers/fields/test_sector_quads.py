@@ -21,7 +21,7 @@ def quads(aligned: AlignedField) -> FloatArray:
     """By how many quarter turns the field turns over each sector."""
     i = aligned.integrability
     turned = i.triangulation.angles - turned_over_corners(i.offsets)
-    return aligned.features.sectors.total(turned) / QUARTER
+    return aligned.sectors.total(turned) / QUARTER
 
 
 def circle(surface: TriSurface) -> Features:
@@ -39,11 +39,13 @@ def test_sectors_of_a_vertex_hold_its_valence(name: str) -> None:
     singularities = run(natural_singularities(surface, features=features))
     prepared = prepare(surface, singularities, features=features)
     aligned = aligned_field(prepared)
-    found, sectors = quads(aligned), aligned.features.sectors
+    found, sectors = quads(aligned), aligned.sectors
     beside = (sectors.start >= 0) | (sectors.end >= 0)
     assert np.abs(found - np.rint(found))[beside].max() < 1e-6
     assert found[beside].min() > 0.5
-    valence = np.where(prepared.surface.boundary_vertices, 2, 4)
+    t = aligned.integrability.triangulation
+    valence = np.full(t.n_vertices, 4)
+    valence[t.tail[t.boundary_halfedges]] = 2
     for vertex, index in prepared.corners.items():
         valence[vertex] -= index
     for s in prepared.singularities:
@@ -61,7 +63,7 @@ def test_the_sides_of_a_cube_meet_in_one_quad_each_at_its_corners() -> None:
     features = Features(surface, sharp_edges(surface, 40))
     corners = at_vertices(surface, features.corners.tolist(), [3] * 8)
     aligned = aligned_field(prepare(surface, corners, refine=0, features=features))
-    sectors = aligned.features.sectors
+    sectors = aligned.sectors
     beside = sectors.start >= 0
     at_corner = np.isin(sectors.vertex, features.corners)
     assert quads(aligned)[at_corner & beside] == pytest.approx(np.ones(24))
@@ -79,7 +81,7 @@ def test_a_circle_is_broken_as_often_as_the_singularities_beside_it_ask_for(thre
         for side in (1, -1)
     ]
     aligned = aligned_field(prepare(surface, singularities, features=circle(surface)))
-    sectors = aligned.features.sectors
+    sectors = aligned.sectors
     found = np.rint(quads(aligned)[sectors.start >= 0]).astype(int)
     assert len(aligned.released) == 0
     assert np.bincount(found, minlength=4).tolist() == [0, threes, len(found) - 2 * threes, threes]
