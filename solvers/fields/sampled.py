@@ -27,7 +27,7 @@ class Sampled:
     half_log_aspect : (m, 3) float array
         At their corners.
     error_density : (m,) float array
-        At their barycentres.
+        At their barycentres, in a scale that keeps its integral.
     """
 
     H: FloatArray
@@ -65,8 +65,11 @@ def sampled(d: Discretization, field: WorkingField, spin: FloatArray) -> Sampled
             # Over odd quarter turns u and v change places.
             odd = np.rint((beyond - theta) / QUARTER) % 2 == 1
             aspect[:, corner] = np.where(odd, -value, value)
-    n = d.surface.n_vertices
-    return Sampled(field.H[:n], theta, aspect, field.error_density[at.face])
+    density = field.error_density[at.face]
+    total = float(d.surface.face_areas @ density)
+    if total > 0:
+        density = density * (float(d.triangulation.areas @ field.error_density) / total)
+    return Sampled(field.H[: d.surface.n_vertices], theta, aspect, density)
 
 
 def _theta(

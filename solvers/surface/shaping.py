@@ -28,9 +28,9 @@ NEEDLE = np.radians(120)
 triangles of twice the least angle, and room.
 """
 
-CLOSE = 0.5
+CLOSE = 0.3
 """Distance of a new vertex from others at least, in parts of the shortest edge of the corners it
-comes from. Chosen: nothing is gained by less but next to needles, where it would never end.
+comes from. Chosen: less than what refinement asks for but next to needles, where it never ends.
 """
 
 ON_EDGE = 0.1

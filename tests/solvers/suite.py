@@ -30,6 +30,19 @@ def slivers() -> TriSurface:
     return TriSurface(np.stack([x + 4 * y, 0.3 * y, 0.05 * np.sin(3 * x)], axis=1), flat.faces)
 
 
+def polar_annulus(around: int, rings: int, inner: float = 0.4) -> TriSurface:
+    """An annulus of radius 1 cut along circles and spokes, however long that makes triangles."""
+    radius, angle = np.meshgrid(
+        np.linspace(inner, 1, rings), 2 * np.pi * np.arange(around) / around, indexing="ij"
+    )
+    x, y = radius * np.cos(angle), radius * np.sin(angle)
+    number = np.arange(rings * around).reshape(rings, around)
+    after = np.roll(number, -1, axis=1)
+    a, b, c, d = (n.ravel() for n in (number[:-1], after[:-1], number[1:], after[1:]))
+    faces = np.concatenate([np.stack([a, c, b], axis=1), np.stack([b, c, d], axis=1)])
+    return TriSurface(np.stack([x.ravel(), y.ravel(), 0 * x.ravel()], axis=1), faces)
+
+
 def at_vertices(
     surface: TriSurface, vertices: Sequence[int], valences: Sequence[int]
 ) -> list[Singularity]:
