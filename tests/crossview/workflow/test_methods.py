@@ -18,7 +18,7 @@ from crossview.workflow.problem import Problem
 from crossview.workflow.sizes import refined_sizes
 from solvers.errors import CrossviewError
 from solvers.fields.crossfield import CrossField
-from solvers.fields.integrable import FieldStep
+from solvers.fields.integrable import FieldStep, alternating_field
 from solvers.primitives import BUILTIN
 from solvers.progress import Progress, run
 from solvers.surface.refinement import refine_at
