@@ -44,8 +44,9 @@ def report(
     "surface" is the surface as given, "solved_on" the one refined around the singularities
     (quality of triangles: 1 equilateral, 0 degenerate); "boundary_misalignment_degrees" follows
     the order of ``surface.boundary_loops`` of the first. "holonomy" and "isotropically_valid" are
-    those of the isotropic field of the configuration, whatever the method. "layout" tells of the
-    separatrices, and of patches if a layout is given; "quads" is there if a quad mesh is.
+    those of the isotropic field of the configuration, whatever the method; the "turns" are the
+    method's. "layout" tells of the separatrices, and of patches if a layout is given; "quads" is
+    there if a quad mesh is.
     """
     problem, field = solution.problem, solution.field
     surface, solved_on = problem.surface, solution.surface
@@ -74,9 +75,17 @@ def report(
         "index_sum": field.index_sum,
         "index_required": field.index_required,
         "holonomy": [
-            {"kind": c.kind, "label": c.label, "defect_degrees": float(np.degrees(defect))}
-            for c, defect in zip(
-                solution.solver.holonomy.conditions, solution.holonomy_defects, strict=True
+            {
+                "kind": c.kind,
+                "label": c.label,
+                "defect_degrees": float(np.degrees(defect)),
+                "turns": turns,
+            }
+            for c, defect, turns in zip(
+                solution.solver.holonomy.conditions,
+                solution.holonomy_defects,
+                solution.turns,
+                strict=True,
             )
         ],
         "tolerance_degrees": problem.options.tolerance_degrees,
@@ -133,6 +142,8 @@ def summary(solution: Solution) -> str:
         said += "" if field.convergence.converged else ", not converged"
     else:
         said += f"E {field.energy:.3g}"
+    if any(solution.turns):
+        said += f", turns {', '.join(map(str, solution.turns))}"
     said += _released(solution)
     return said if verdict.status == "valid" else f"{said}. {verdict}"
 

@@ -12,17 +12,18 @@ from solvers.fields import (
     alternating_field,
     anisotropic_field,
 )
-from solvers.maps import seamless_map
+from solvers.maps import MappedField, unfolded
 from solvers.progress import Progress
 from solvers.surface import FloatArray
 
-Integration = Generator[Progress, None, IntegratedField]
-
 
 def integrate(
-    method: str, aligned: AlignedField, options: Options, sizes: FloatArray | None
-) -> Integration:
-    """Find the field of a method, from the aligned field.
+    method: str, aligned: AlignedField, options: Options, sizes: FloatArray | None, limits: Limits
+) -> Generator[Progress, None, tuple[IntegratedField, MappedField | None]]:
+    """Find the field of a method, from the aligned field, and its map, if it is integrable.
+
+    An anisotropic field whose map is folded gives way to one of another way or, unless the options
+    ask for turns, of other turns, where that is not folded.
 
     Parameters
     ----------
@@ -31,22 +32,22 @@ def integrate(
     options : Options
     sizes : (n,) or (n, 2) float array, optional
         At the vertices of the surface solved on.
+    limits : Limits
+        What is integrable.
     """
     if method == "anisotropic":
-        return (yield from anisotropic_field(aligned, sizes))
-    if method == "alternating":
-        return (yield from alternating_field(aligned, options.proximal_weight))
-    return IntegratedField(aligned, aligned.start)
+        found = yield from anisotropic_field(aligned, sizes)
+    elif method == "alternating":
+        found = yield from alternating_field(aligned, options.proximal_weight)
+    else:
+        found = IntegratedField(aligned, aligned.start)
+    mapped = with_map(found, limits)
+    if mapped is None or method != "anisotropic":
+        return found, mapped
+    mapped = yield from unfolded(mapped, sizes, keep_turns=options.turns is not None)
+    return mapped.integrated, mapped
 
 
-def map_faults(
-    integrated: IntegratedField | None, limits: Limits
-) -> tuple[int, int] | tuple[None, None]:
-    """How many triangles of a field's map are inverted, how many vertices it winds wrongly around.
-
-    Of both None if the field has no map.
-    """
-    if integrated is None or integrated.field.energy > limits.energy:
-        return None, None
-    found = seamless_map(integrated)
-    return len(found.inverted), len(found.wrong_windings)
+def with_map(integrated: IntegratedField, limits: Limits) -> MappedField | None:
+    """Return a field with its map; None if it is not integrable and has none."""
+    return None if integrated.field.energy > limits.energy else MappedField.of(integrated)

@@ -12,7 +12,7 @@ import numpy as np
 
 from crossview.cases.model import Case
 from crossview.workflow.layout import require_possible
-from crossview.workflow.methods import integrate, map_faults
+from crossview.workflow.methods import integrate, with_map
 from crossview.workflow.problem import Problem, problems_of
 from crossview.workflow.sizes import read_sizes, refined_sizes
 from crossview.workflow.solution import Solution
@@ -30,6 +30,7 @@ from solvers.fields import (
     prepare,
 )
 from solvers.layouts import in_joining_gauge, joined_field
+from solvers.maps import MappedField
 from solvers.progress import Progress, between
 from solvers.singularities import require_budget, require_places
 from solvers.surface import FloatArray
@@ -47,6 +48,7 @@ class Pipeline:
         self._prepared: PreparedSurface | None = None
         self._problem: Problem | None = None
         self._kept: dict[str, Solution] = {}
+        self._aligned: AlignedField | None = None
         self._sizes: FloatArray | None = None  # of the last anisotropic solution
 
     def solve(self, problem: Problem) -> Solving:
@@ -82,13 +84,15 @@ class Pipeline:
                 solver = in_joining_gauge(solver, prepared.singularities)
                 field = solver.solve(prepared.singularities)
             yield Progress("checking the holonomy", 0.8)
-            solution = _solution(problem, prepared, solver, field, seconds)
+            limits = _limits(problem, solver)
+            solution = _solution(problem, prepared, solver, field, limits, seconds)
         else:
             yield Progress("aligning with the boundaries", 0.2)
             with _timed(seconds, "align"):
-                aligned = self._aligned(problem, prepared)
+                if self._aligned is None:
+                    self._aligned = joined_field(prepared, problem.options.turns)
             finer = None if sizes is None else refined_sizes(sizes, prepared.refinement)
-            solution = yield from _integrated(aligned, problem, finer, seconds)
+            solution = yield from _integrated(self._aligned, problem, finer, seconds)
             self._sizes = sizes if problem.method == "anisotropic" else self._sizes
         self._kept[problem.method] = solution
         return solution
@@ -103,7 +107,10 @@ class Pipeline:
         """
         if self._problem is None:
             raise CrossviewError("nothing has been solved yet")
-        return _integrated_solution(self._problem, step.so_far, {})
+        integrated = step.so_far
+        limits = _limits(self._problem, integrated.aligned.solver)
+        mapped = with_map(integrated, limits)
+        return _integrated_solution(self._problem, integrated, mapped, limits, {})
 
     def _kept_by(self, problem: Problem, sizes: FloatArray | None) -> Solution | None:
         """The last solution of this very problem by its method."""
@@ -130,26 +137,20 @@ class Pipeline:
                 features=problem.features,
             )
         if before is None or not problem.same_but_method(before):
-            self._kept = {}
+            self._kept, self._aligned = {}, None
         return self._prepared
-
-    def _aligned(self, problem: Problem, prepared: PreparedSurface) -> AlignedField:
-        """The aligned field of a problem, that of another method where it has been solved."""
-        for kept in self._kept.values():
-            if kept.integrated is not None:
-                return kept.integrated.aligned
-        return joined_field(prepared, problem.options.turns)
 
 
 def _integrated(
     aligned: AlignedField, problem: Problem, sizes: FloatArray | None, seconds: dict[str, float]
 ) -> Solving:
     """Solve by a method that starts from the aligned field."""
-    iteration = integrate(problem.method, aligned, problem.options, sizes)
+    limits = _limits(problem, aligned.solver)
+    iteration = integrate(problem.method, aligned, problem.options, sizes, limits)
     with _timed(seconds, "solve"):
-        integrated = yield from between(iteration, 0.3, 0.9)
+        integrated, mapped = yield from between(iteration, 0.3, 0.9)
     yield Progress("judging", 0.9)
-    return _integrated_solution(problem, integrated, seconds)
+    return _integrated_solution(problem, integrated, mapped, limits, seconds)
 
 
 @contextmanager
@@ -196,11 +197,22 @@ def solve_case(case: Case, quads: bool = False) -> Generator[Progress, None, tup
     return tuple(solutions)
 
 
+def _limits(problem: Problem, solver: IsotropicSolver) -> Limits:
+    """Within which the options of a problem call a field valid."""
+    return Limits.on(solver.holonomy, float(np.radians(problem.options.tolerance_degrees)))
+
+
 def _integrated_solution(
-    problem: Problem, integrated: IntegratedField, seconds: dict[str, float]
+    problem: Problem,
+    integrated: IntegratedField,
+    mapped: MappedField | None,
+    limits: Limits,
+    seconds: dict[str, float],
 ) -> Solution:
     aligned, field = integrated.aligned, integrated.field
-    return _solution(problem, aligned.prepared, aligned.solver, field, seconds, integrated)
+    return _solution(
+        problem, aligned.prepared, aligned.solver, field, limits, seconds, integrated, mapped
+    )
 
 
 def _solution(
@@ -208,16 +220,17 @@ def _solution(
     prepared: PreparedSurface,
     solver: IsotropicSolver,
     field: CrossField,
+    limits: Limits,
     seconds: dict[str, float],
     integrated: IntegratedField | None = None,
+    mapped: MappedField | None = None,
 ) -> Solution:
     """Put together what a method found with the holonomy and the verdict."""
     with _timed(seconds, "holonomy"):
         defects = solver.holonomy.defects(prepared.singularities)
     with _timed(seconds, "verdict"):
-        tolerance = float(np.radians(problem.options.tolerance_degrees))
-        limits = Limits.on(solver.holonomy, tolerance)
-        inverted, wound = map_faults(integrated, limits)
+        inverted = None if mapped is None else len(mapped.map.inverted)
+        wound = None if mapped is None else len(mapped.map.wrong_windings)
         turns = None if integrated is None else holonomy_class(integrated.aligned)
         verdict = judge(field, inverted, limits, wrong_windings=wound or 0, turns=turns)
     return Solution(

@@ -108,6 +108,16 @@ class Solution:
         integrated = self.integrated
         return no_features(self.surface) if integrated is None else integrated.aligned.released
 
+    @property
+    def turns(self) -> tuple[int, ...]:
+        """Quarter turns over each holonomy condition besides those nearest to the isotropic field.
+
+        Those asked for, or others where the field of the nearest has a folded map.
+        """
+        if self.integrated is None:
+            return (0,) * len(self.holonomy_defects)
+        return self.integrated.aligned.turns
+
     @cached_property
     def cut_graph(self) -> IntArray:
         """(k, 2) vertex pairs of `surface` that cut it to a disk and meet every singularity."""

@@ -60,7 +60,11 @@ class FieldStep(Progress):
 
 
 def anisotropic_field(
-    aligned: AlignedField, sizes: FloatArray | None = None, *, smooth: bool = True
+    aligned: AlignedField,
+    sizes: FloatArray | None = None,
+    *,
+    smooth: bool = True,
+    stages: int = 1,
 ) -> Generator[Progress, None, IntegratedField]:
     """Find two scales and an angle with E = 0: Newton, homotopy where it fails, smoothing.
 
@@ -72,7 +76,10 @@ def anisotropic_field(
         Sizes to follow as closely as E = 0 allows: one for both branches, or one along the
         branch nearer to the x axis and one along the other.
     smooth : bool, optional
-        Whether to move along E = 0 to the smoothest scales.
+        Whether to move along E = 0 to the smoothest scales, at each stage.
+    stages : int, optional
+        Into how many parts the way from the isotropic field is cut; there are many fields with
+        E = 0, and another way leads to another.
 
     Returns
     -------
@@ -108,7 +115,11 @@ def anisotropic_field(
     if sizes is not None:
         target = _log_targets(aligned, sizes)
     newton = MinimumNormNewton(aligned.integrability)
-    integrated = yield from _shown(aligned, "anisotropic", _solve(aligned, newton))
+    if stages == 1:
+        way = _solve(aligned, newton)
+    else:
+        way = by_stages(aligned, newton, stages, smooth=smooth)
+    integrated = yield from _shown(aligned, "anisotropic", way)
     if (
         smooth
         and integrated.converged
@@ -169,7 +180,9 @@ def _solve(aligned: AlignedField, newton: MinimumNormNewton) -> Iteration:
     return direct
 
 
-def by_stages(aligned: AlignedField, newton: MinimumNormNewton, stages: int) -> Iteration:
+def by_stages(
+    aligned: AlignedField, newton: MinimumNormNewton, stages: int, *, smooth: bool = False
+) -> Iteration:
     """Turn the misaligned boundaries and handles to zero bit by bit, with E = 0 at each stage.
 
     The isotropic field is integrable, whatever its defects; the field with a fraction of the
@@ -183,11 +196,16 @@ def by_stages(aligned: AlignedField, newton: MinimumNormNewton, stages: int) -> 
         On its integrability problem.
     stages : int
         Into how many parts the correction is cut.
+    smooth : bool, optional
+        Whether to move along E = 0 to the smoothest scales at each stage before the last.
     """
     x = aligned.start
+    follow_none = np.zeros((aligned.integrability.triangulation.n_faces, 2, 3))
     for stage in range(1, stages):
         partly = MinimumNormNewton(aligned.partly(stage / stages))
         x = (yield from partly.solve(x)).x
+        if smooth:
+            x = (yield from partly.slide(x, follow_none)).x
     return (yield from newton.solve(x))
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from solvers.maps.closed_images import SeamlessMap
+from solvers.maps.folds import MappedField, unfolded
 from solvers.maps.matching import Matching
 from solvers.maps.seamless import seamless_map
 
-__all__ = ["Matching", "SeamlessMap", "seamless_map"]
+__all__ = ["MappedField", "Matching", "SeamlessMap", "seamless_map", "unfolded"]

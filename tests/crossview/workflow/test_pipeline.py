@@ -9,6 +9,7 @@ import pytest
 
 from crossview.cases.json_values import CaseError
 from crossview.cases.model import Builtin, Case, Options, PlacedCorner, PlacedSingularity
+from crossview.export.report import report, summary
 from crossview.workflow.pipeline import Pipeline, solve_case
 from crossview.workflow.problem import Problem
 from solvers.errors import SingularityError
@@ -63,6 +64,27 @@ def test_other_changes_start_afresh(change: str) -> None:
     assert second.solver is not first.solver
     fresh = run(Pipeline().solve(changed))
     assert np.abs(second.field.H - fresh.field.H).max() < 1e-12
+
+
+def test_turns_whose_map_is_folded_give_way_and_no_other_method_takes_them_over() -> None:
+    places = [
+        (-0.35, -0.53, -0.23),
+        (0.96, -0.65, -0.4),
+        (0.42, -1.36, 0.04),
+        (-0.98, -0.36, -0.43),
+    ]
+    placed = tuple(map(PlacedSingularity, places, (3, 3, 5, 5)))
+    surface = Builtin("torus", {"minor": 0.433, "n": 48})
+    problem = Problem.from_case(Case(surface, placed, method="anisotropic"))
+    pipeline = Pipeline()
+    solution = run(pipeline.solve(problem))
+    assert solution.verdict.status == "valid"
+    assert any(solution.turns)
+    told = [condition["turns"] for condition in report(solution)["holonomy"]]
+    assert told == list(solution.turns)
+    assert f"turns {', '.join(map(str, told))}" in summary(solution)
+    aligned = run(pipeline.solve(replace(problem, method="aligned")))
+    assert aligned.turns == (0, 0)
 
 
 def test_singularities_become_vertices_where_they_were_placed() -> None:

@@ -1,0 +1,158 @@
+"""Another field where the map of the first is folded: on another way, by other turns.
+
+E = 0 has many solutions. Where defects are large the nearest one may stretch so much that triangles
+cannot follow it: each is asked to be upright, and closed they make a map that is folded. E does not
+tell; the map does. Another way from the isotropic field, or other quarter turns around a handle or
+a boundary, often lead to a field that stretches less.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+
+from solvers.fields.aligned import AlignedField, IntegratedField, aligned_field
+from solvers.fields.integrable import anisotropic_field
+from solvers.fields.verdict import EXTREME_ASPECT
+from solvers.maps.closed_images import SeamlessMap
+from solvers.maps.seamless import seamless_map
+from solvers.progress import Progress
+from solvers.surface.triangulation import QUARTER, FloatArray
+
+NEIGHBOURS = 4
+"""Most turns that are tried besides the nearest. Chosen."""
+
+STAGES = (2, 4)
+"""Stages in which other ways from the isotropic field are gone. Chosen."""
+
+
+@dataclass(frozen=True, eq=False)
+class MappedField:
+    """A field with its seamless map.
+
+    Parameters
+    ----------
+    integrated : IntegratedField
+        The field.
+    map : SeamlessMap
+        The map nearest to it.
+
+    Examples
+    --------
+    >>> from solvers.fields import IntegratedField, aligned_field, prepare
+    >>> from solvers.maps import MappedField
+    >>> from solvers.primitives import square
+    >>> aligned = aligned_field(prepare(square(n=4)))
+    >>> mapped = MappedField.of(IntegratedField(aligned, aligned.start))
+    >>> mapped.faults, mapped.folded
+    (0, False)
+    """
+
+    integrated: IntegratedField
+    map: SeamlessMap
+
+    @classmethod
+    def of(cls, integrated: IntegratedField) -> MappedField:
+        """Return a field with its map.
+
+        Parameters
+        ----------
+        integrated : IntegratedField
+            The field.
+        """
+        return cls(integrated, seamless_map(integrated))
+
+    @property
+    def faults(self) -> int:
+        """Number of inverted triangles and of vertices that the map winds wrongly around."""
+        return len(self.map.inverted) + len(self.map.wrong_windings)
+
+    @property
+    def folded(self) -> bool:
+        """Whether the map has faults that come from a field which is stretched too much."""
+        return self.faults > 0 and self.integrated.field.max_log_aspect > EXTREME_ASPECT
+
+
+def unfolded(
+    first: MappedField, sizes: FloatArray | None = None, *, keep_turns: bool = False
+) -> Generator[Progress, None, MappedField]:
+    """Look for an anisotropic field whose map is not folded.
+
+    Parameters
+    ----------
+    first : MappedField
+        The anisotropic field by the shortest way.
+    sizes : (n,) or (n, 2) float array, optional
+        As of `anisotropic_field`.
+    keep_turns : bool, optional
+        Whether the turns of the first are asked for, and no others are tried.
+
+    Returns
+    -------
+    MappedField
+        The first found that is not folded, else the one with the fewest faults; the one given if
+        that is not folded. Its turns are those of ``integrated.aligned``.
+
+    Raises
+    ------
+    CrossviewError
+        As `anisotropic_field`.
+
+    Examples
+    --------
+    Where nothing is folded, nothing is solved:
+
+    >>> from solvers import run
+    >>> from solvers.fields import IntegratedField, aligned_field, prepare
+    >>> from solvers.maps import MappedField, unfolded
+    >>> from solvers.primitives import square
+    >>> aligned = aligned_field(prepare(square(n=4)))
+    >>> first = MappedField.of(IntegratedField(aligned, aligned.start))
+    >>> run(unfolded(first)) is first
+    True
+    """
+    best, start = first, first.integrated.aligned
+    if not first.folded:
+        return first
+    near = [] if keep_turns else neighbouring_turns(start)[:NEIGHBOURS]
+    ways = [(turns, 1) for turns in near]
+    ways[1:1] = [(start.turns, stages) for stages in STAGES]
+    for turns, stages in ways:
+        aligned = start
+        if turns != start.turns:
+            aligned = aligned_field(start.prepared, turns, like=start.isotropic)
+        found = yield from anisotropic_field(aligned, sizes, stages=stages)
+        if not found.convergence.converged:
+            continue
+        tried = MappedField.of(found)
+        if tried.faults < best.faults:
+            best = tried
+            if not best.folded:
+                break
+    return best
+
+
+def neighbouring_turns(aligned: AlignedField) -> list[tuple[int, ...]]:
+    """Return other turns than those of a field: one or two of them changed by one.
+
+    Parameters
+    ----------
+    aligned : AlignedField
+        The field.
+
+    Returns
+    -------
+    list of tuple of int
+        Those first whose harmonic correction has the least energy, as of
+        `Holonomy.aligned_energy`.
+    """
+    chosen = np.array(aligned.turns, dtype=np.int64)
+    steps = [sign * row for row in np.eye(len(chosen), dtype=np.int64) for sign in (1, -1)]
+    pairs = [one + other for one, other in combinations(steps, 2) if (one + other).any()]
+    turns = chosen + np.array([*steps, *pairs], dtype=np.int64).reshape(-1, len(chosen))
+    missed = QUARTER * turns - aligned.isotropic.defects
+    energy = (missed * np.linalg.solve(aligned.solver.holonomy.harmonic_energy, missed.T).T).sum(1)
+    return [tuple(turns[i].tolist()) for i in np.argsort(energy, kind="stable")]
