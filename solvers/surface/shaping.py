@@ -11,7 +11,13 @@ import numpy as np
 
 from solvers.surface.delaunay import flip_to_delaunay
 from solvers.surface.moves import ComplexArray, as_complex, as_real
-from solvers.surface.triangulation import FloatArray, IntArray, heron, laid_out
+from solvers.surface.triangulation import (
+    FloatArray,
+    IntArray,
+    IntrinsicTriangulation,
+    heron,
+    laid_out,
+)
 from solvers.surface.working import Edit, WorkingTriangulation
 
 ANGLES = np.radians([4, 8, 12, 16])
@@ -29,8 +35,8 @@ triangles of twice the least angle, and room.
 """
 
 CLOSE = 0.3
-"""Distance of a new vertex from others at least, in parts of the shortest edge of the corners it
-comes from. Chosen: less than what refinement asks for but next to needles, where it never ends.
+"""Distance of a new vertex from others at least, in parts of the spacing of the corners it comes
+from. Chosen: less than what refinement asks for but next to needles, where it never ends.
 """
 
 ON_EDGE = 0.1
@@ -136,10 +142,7 @@ class _Refinement:
         self._edit = edit
         self._left = max(int(GROWTH * edit.n_vertices), ALWAYS)
         t = edit.done().triangulation
-        shortest = np.full(t.n_vertices, np.inf)
-        for ends in (t.tail, t.head):
-            np.minimum.at(shortest, ends, t.lengths.reshape(-1))
-        self._spacing = shortest
+        self._spacing = _spacing(t)
         self._needle = t.curvatures > 2 * np.pi - NEEDLE
 
     def run(self, sine: float) -> None:
@@ -233,6 +236,21 @@ class _Refinement:
         old = [face[inside], halfedge[on_edge] // 3, other[other >= 0] // 3]
         touched = np.concatenate([*old, np.arange(before, len(edit.faces))])
         flip_to_delaunay(edit, (3 * touched[:, None] + np.arange(3)).reshape(-1))
+
+
+def _spacing(t: IntrinsicTriangulation) -> FloatArray:
+    """Return the second shortest edge of each vertex (n,): the shortest may lead to a near one.
+
+    Around two near vertices triangles of their distance would do harm: a map that is to have a
+    singularity elsewhere gives way in the smallest triangles first, and turns them over.
+    """
+    h = t.edge_halfedges
+    vertex = np.concatenate([t.tail[h], t.head[h]])
+    length = np.tile(t.lengths.reshape(-1)[h], 2)
+    order = np.lexsort((length, vertex))
+    first = np.searchsorted(vertex[order], np.arange(t.n_vertices))
+    last = np.searchsorted(vertex[order], np.arange(t.n_vertices), side="right") - 1
+    return np.asarray(length[order[np.minimum(first + 1, last)]])
 
 
 def _circumradius(lengths: FloatArray) -> FloatArray:
