@@ -114,8 +114,8 @@ def quads(layout: QuadLayout, options: MeshOptions) -> Generator[Progress, None,
     filled = fill(layout, chosen.counts)
     if options.smooth:
         yield Progress("smoothing", 0.5)
-        features = layout.integrated.aligned.integrability.discretization.features
-        filled = smooth(filled, curves=[curve.vertices for curve in features.curves])
+        curves = layout.integrated.aligned.features.curves
+        filled = smooth(filled, curves=[curve.vertices for curve in curves])
     yield Progress("checking the quads", 0.9)
     filled.check()
     return filled

@@ -23,8 +23,8 @@ from solvers.fields.integrability import Integrability
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.fields.prepared import PreparedSurface
 from solvers.fields.sampled import sampled
-from solvers.fields.sector_quads import turned_over_corners
-from solvers.frozen import freeze_arrays
+from solvers.fields.sector_quads import STRAIGHT, turned_over_corners
+from solvers.frozen import freeze_arrays, frozen_property
 from solvers.number_checks import whole_numbers
 from solvers.surface.triangulation import QUARTER, FloatArray, IntArray
 
@@ -109,21 +109,33 @@ class AlignedField:
         """What features and boundary cut the neighbourhoods of vertices into, as it is solved."""
         return sectors_between(self.integrability.triangulation, self.integrability.features)
 
-    @cached_property
+    @frozen_property
+    def sector_quads(self) -> FloatArray:
+        """(s,) how many quads meet in each of the sectors, whole beside features."""
+        i = self.integrability
+        turned = i.triangulation.angles - turned_over_corners(i.offsets)
+        return self.sectors.total(turned) / QUARTER
+
+    @frozen_property
     def forced_corners(self) -> IntArray:
         """Regular vertices of features where quads meet in another number than the angles ask for.
 
         There the singularities on both sides of a curve do not fit it.
         """
-        i, found = self.integrability, self.sectors
-        t, features = i.triangulation, i.discretization.features
-        # Over a corner, edge to edge, the crosses turn as from one midpoint to the other.
-        off = np.abs(found.total(turned_over_corners(i.offsets)))
-        regular = np.zeros(t.n_vertices, dtype=bool)
+        features, sectors = self.features, self.sectors
+        off = np.abs(QUARTER * self.sector_quads - sectors.angle)
+        regular = np.zeros(self.integrability.triangulation.n_vertices, dtype=bool)
         regular[: len(features.degrees)] = features.degrees > 0
         for s in self.isotropic.singularities:
             regular[self.isotropic.surface.nearest_vertex(s.point)] = False
-        return np.unique(found.vertex[(off > FORCED) & regular[found.vertex]])
+        return np.unique(sectors.vertex[(off > FORCED) & regular[sectors.vertex]])
+
+    @frozen_property
+    def bent(self) -> IntArray:
+        """Vertices of the triangulation at which features do not go straight on in a map."""
+        s = self.sectors
+        other = np.rint(self.sector_quads) != STRAIGHT
+        return np.unique(s.vertex[other & ((s.start >= 0) | (s.end >= 0))])
 
     @property
     def start(self) -> FloatArray:

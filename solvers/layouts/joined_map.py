@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import csc_array
 
-from solvers.features.edges import Features
 from solvers.fields.aligned import IntegratedField
 from solvers.layouts.charts import Chart
 from solvers.layouts.errors import LayoutError
@@ -47,11 +46,6 @@ class JoinedMap:
     def surface(self) -> TriSurface:
         """What is mapped."""
         return self.integrated.field.surface
-
-    @property
-    def features(self) -> Features:
-        """The edges that crosses follow."""
-        return self._integrability.discretization.features
 
     @property
     def mended(self) -> int:

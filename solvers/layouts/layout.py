@@ -157,7 +157,7 @@ def quad_layout(
     map_.require_upright()  # joining turns no more over
     yield Progress("tracing separatrices", 0.4)
     singular = singular_nodes(map_.chart, integrated.field)
-    featured = feature_nodes(map_.chart, map_.features, {n.vertex for n in singular})
+    featured = feature_nodes(map_.chart, integrated.aligned, {n.vertex for n in singular})
     drawing = Drawing(map_, singular, featured, SHORT)
     for _ in range(JOININGS):
         yield Progress("joining separatrices", 0.6)

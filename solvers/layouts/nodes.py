@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from solvers.features.edges import Features
+from solvers.fields.aligned import AlignedField
 from solvers.fields.crossfield import CrossField
 from solvers.layouts.charts import Chart
 from solvers.surface.triangulation import QUARTER, FloatArray, IntArray, previous_halfedge
@@ -119,18 +119,21 @@ def singular_nodes(chart: Chart, field: CrossField) -> list[Node]:
     return inside + [node_at(chart, v, 2 - k) for v, k in field.corners.items()]
 
 
-def feature_nodes(chart: Chart, features: Features, taken: set[int]) -> list[Node]:
-    """Return nodes where feature curves end, and one on each closed curve.
+def feature_nodes(chart: Chart, aligned: AlignedField, taken: set[int]) -> list[Node]:
+    """Return nodes where feature curves end or do not go straight on, one on each closed curve.
 
     Parameters
     ----------
     chart : Chart
         The map.
-    features : Features
-        The curves.
+    aligned : AlignedField
+        The field that follows them.
     taken : set of int
         Vertices that are nodes already.
     """
-    ends = {int(v) for curve in features.curves for v in curve.vertices[[0, -1]]}
-    on_boundary = features.surface.boundary_vertices
+    ends = {int(v) for curve in aligned.features.curves for v in curve.vertices[[0, -1]]}
+    ends.update(aligned.bent.tolist())
+    t = chart.triangulation
+    on_boundary = np.zeros(t.n_vertices, dtype=bool)
+    on_boundary[t.tail[t.boundary_halfedges]] = True
     return [node_at(chart, v, 2 if on_boundary[v] else 4) for v in sorted(ends - taken)]
