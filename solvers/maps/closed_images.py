@@ -69,6 +69,11 @@ class SeamlessMap:
         area = last[:, 0] * first[:, 1] - last[:, 1] * first[:, 0]
         return np.flatnonzero(area <= 0)
 
+    @property
+    def upright(self) -> bool:
+        """Whether it is injective near every point: nothing inverted, nothing wound wrongly."""
+        return not len(self.inverted) and not len(self.wrong_windings)
+
     @frozen_property
     def wrong_windings(self) -> IntArray:
         """Vertices with a sector whose images do not turn by as many quarters as quads meet there.

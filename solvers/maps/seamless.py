@@ -17,6 +17,7 @@ from scipy.sparse import csc_array
 from solvers.fields.aligned import IntegratedField
 from solvers.fields.integrability import Integrability
 from solvers.maps.closed_images import ClosestImages, Conditions, Joining, SeamlessMap
+from solvers.maps.flat_metric import flat_metric
 from solvers.maps.matching import Matching
 from solvers.surface.triangulation import FloatArray, IntrinsicTriangulation
 
@@ -84,17 +85,41 @@ class SeamlessFit:
         The further conditions it satisfies.
     """
 
+    map: SeamlessMap
+
     def __init__(self, integrated: IntegratedField) -> None:
         integrability, x = integrated.aligned.integrability, integrated.x
         self.matching = Matching.of(integrability)
-        t = integrability.triangulation
+        t = self.matching.triangulation
         self._weight = np.maximum(t.weights, LEAST_WEIGHT / 2) * _by_size(integrability, x)
         self._wanted = _wanted(integrability, x)
         self._upright = _wanted_by_means(integrability, x)
+        self._start()
+        if not self.map.upright and not self._repaired(_theta(integrability, x)):
+            self.map = self._mended(self.map)
+
+    def _start(self) -> None:
+        """Fit the map nearest to what is wanted, without joins."""
+        t = self.matching.triangulation
         self._stiffer = np.zeros(t.n_faces, dtype=bool)
         self._fit = ClosestImages(Conditions(self.matching), self._wanted, self._weight)
         self.joins = self._fit.joining(csc_array((0, 6 * t.n_faces)))
-        self.map = self._mended(self._fit.joined(self.joins))
+        self.map = self._fit.joined(self.joins)
+
+    def _repaired(self, theta: FloatArray) -> bool:
+        """Fit the map to the flat metric near what is wanted; return whether there is one."""
+        log_lengths = 0.5 * np.log((self._wanted**2).sum(axis=1))
+        twin = self.matching.triangulation.twin
+        beyond = np.where(twin >= 0, log_lengths[twin], log_lengths)
+        metric = flat_metric(self.matching, (log_lengths + beyond) / 2, theta)
+        if metric is None:
+            return False
+        self.matching, t = metric.matching, metric.matching.triangulation
+        self._wanted = self._upright = metric.images.reshape(-1, 2)
+        size = t.lengths.reshape(-1) ** 2 / (self._wanted**2).sum(axis=1)
+        self._weight = np.maximum(t.weights, LEAST_WEIGHT / 2) * size / size.max()
+        self._start()
+        return True
 
     @property
     def mended(self) -> int:
@@ -182,6 +207,11 @@ def _by_size(integrability: Integrability, x: FloatArray) -> FloatArray:
     a = integrability.local(x)[0]
     square = np.exp(-(a + a[:, [1, 2, 0]])).reshape(-1)
     return np.asarray(square / square.max())
+
+
+def _theta(integrability: Integrability, x: FloatArray) -> FloatArray:
+    """Return the angle of the cross at each barycentre (m,), radians."""
+    return np.asarray(integrability.theta + integrability.local(x)[2].mean(axis=1))
 
 
 def _wanted_by_means(integrability: Integrability, x: FloatArray) -> FloatArray:

@@ -9,6 +9,7 @@ tracing signposts is done by replaying the moves.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -402,6 +403,14 @@ class Edit:
     def unchanged(self) -> bool:
         """Whether no move has been made on the original triangles."""
         return not self._rounds
+
+    def copied(self) -> Edit:
+        """Return another one, with what has been done so far, to try moves on."""
+        other = copy(self)
+        other._rounds = list(self._rounds)
+        for name in ("faces", "twin", "lengths", "marks", "turns", "angles", "_number", "_claimed"):
+            setattr(other, name, getattr(self, name).copy())
+        return other
 
     def done(self) -> WorkingTriangulation:
         """Return what has become of it."""
