@@ -83,12 +83,15 @@ class FlatMetric:
         The triangles after flips, and the topology of the field, which is the same.
     images : (m, 3, 2) float array
         Image of each halfedge in the frame of its triangle's cross, upright.
+    distance : float
+        Root mean square of how far the logarithms of lengths are from those asked for.
     steps : int
         Newton steps, with one factorisation each.
     """
 
     matching: Matching
     images: FloatArray
+    distance: float
     steps: int
 
 
@@ -130,7 +133,8 @@ def flat_metric(
         conditions = _Conditions(metric, target)
         off = conditions.off(target)
         if np.abs(off).max(initial=0.0) <= FLAT:
-            return FlatMetric(metric.matching(), conditions.images(target), step)
+            images = conditions.images(target)
+            return FlatMetric(metric.matching(), images, metric.distance, step)
         if step == STEPS:
             break
         try:
@@ -165,7 +169,7 @@ class _Metric:
 
     def __init__(self, matching: Matching, log_lengths: FloatArray, theta: FloatArray) -> None:
         self._edit: Edit = matching.working.edit(turns=matching.period_jumps, angles=theta)
-        self.log_lengths = log_lengths.copy()
+        self.log_lengths, self._asked = log_lengths.copy(), log_lengths.copy()
         self.sector, self.axes = matching.sector.copy(), matching.axes.copy()
         self.quads = matching.quads
 
@@ -173,7 +177,7 @@ class _Metric:
         """Return another one to change."""
         other = copy(self)
         other._edit = self._edit.copied()
-        other.log_lengths = self.log_lengths.copy()
+        other.log_lengths, other._asked = self.log_lengths.copy(), self._asked.copy()
         other.sector, other.axes = self.sector.copy(), self.axes.copy()
         return other
 
@@ -181,6 +185,11 @@ class _Metric:
         """Return the topology on the triangles as they are."""
         edit = self._edit
         return Matching(edit.done(), edit.turns, self.axes, self.sector, self.quads)
+
+    @property
+    def distance(self) -> float:
+        """How far the lengths are from those asked for, as of `FlatMetric`."""
+        return float(np.sqrt(((self.log_lengths - self._asked) ** 2).mean()))
 
     @property
     def twin(self) -> IntArray:
@@ -228,31 +237,33 @@ class _Metric:
     def _flip(self, h: IntArray) -> None:
         g = self.twin[h]
         left, right = h // 3, g // 3
-        diagonal = self._diagonal(h, g)
+        diagonal, asked = (self._diagonal(x, h, g) for x in (self.log_lengths, self._asked))
         crossed = self.turns[h]
         bc, ca = next_halfedge(h), previous_halfedge(h)
         ad, db = next_halfedge(g), previous_halfedge(g)
         source = np.concatenate([db, bc, ca, ad])
         at_a, at_b, at_c, at_d = (self.sector[x] for x in (h, bc, ca, db))
-        log_lengths, axes = self.log_lengths[source], self.axes[source]
+        log_lengths, asked_around = self.log_lengths[source], self._asked[source]
+        axes = self.axes[source]
         # What lay right is now seen from the left cross, and the other way.
         none = np.zeros_like(crossed)
         seen = np.where(axes == FREE, 0, np.concatenate([-crossed, none, crossed, none]))
         target = self._edit.flip(h)
-        self.log_lengths[target] = log_lengths
+        self.log_lengths[target], self._asked[target] = log_lengths, asked_around
         self.axes[target] = np.where(axes == FREE, FREE, (axes + seen) % 4)
         for face, corners in ((left, (at_c, at_d, at_b)), (right, (at_d, at_c, at_a))):
-            self.log_lengths[3 * face], self.axes[3 * face] = diagonal, FREE
+            self.log_lengths[3 * face], self._asked[3 * face] = diagonal, asked
+            self.axes[3 * face] = FREE
             for i, sector in enumerate(corners):
                 self.sector[3 * face + i] = sector
 
-    def _diagonal(self, h: IntArray, g: IntArray) -> FloatArray:
-        """Return the logarithm of the other diagonal of each pair of triangles.
+    @staticmethod
+    def _diagonal(x: FloatArray, h: IntArray, g: IntArray) -> FloatArray:
+        """Return the logarithm of the other diagonal of each pair of triangles with log lengths x.
 
         That of the flat quadrilateral where there is one, which leaves the metric as it is; else
         that of the one with a circle around it (Ptolemy).
         """
-        x = self.log_lengths
         ahead, behind = (x[side(h)] + x[side(g)] for side in (next_halfedge, previous_halfedge))
         diagonal = np.logaddexp(ahead, behind) - x[h]
         lengths = np.exp(x).reshape(-1, 3)

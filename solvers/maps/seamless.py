@@ -3,13 +3,15 @@
 The unknown is one vector for each edge, in the frame of its triangle's cross; the other side sees
 it turned by the matching. The three vectors of a triangle close, edges of the boundary and of
 features have no component across, and the vectors stay as near as possible to what the field asks
-for. Triangles that come out inverted (at singularities) are asked for the image that their mean
-cross and sizes give, which is not, with more weight, until none is.
+for. Where triangles come out inverted or a vertex is wound around wrongly, the map is that of the
+flat metric nearest by. Where there is none, and where joins turn triangles over, these are asked
+for the image that their mean cross and sizes give, which is not, with more weight, until none is.
 """
 
 from __future__ import annotations
 
 from copy import copy
+from dataclasses import replace
 
 import numpy as np
 from scipy.sparse import csc_array
@@ -119,6 +121,7 @@ class SeamlessFit:
         size = t.lengths.reshape(-1) ** 2 / (self._wanted**2).sum(axis=1)
         self._weight = np.maximum(t.weights, LEAST_WEIGHT / 2) * size / size.max()
         self._start()
+        self.map = replace(self.map, distance=metric.distance)
         return True
 
     @property
