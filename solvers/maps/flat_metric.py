@@ -42,10 +42,10 @@ FLAT = 1e-9
 Chosen, above rounding; what is left is taken away by the least change of the images.
 """
 
-SLACK = 0.01
+SLACK = 1e-3
 """By how much two sides of a triangle are longer than the third at least, in parts of that.
 
-Chosen: angles down to about a degree.
+Chosen: angles up to about 175 degrees.
 """
 
 OBTUSE = np.radians(140)
@@ -60,11 +60,20 @@ Radians. Chosen, above rounding.
 FARTHEST = 1.0
 """Largest change of the logarithm of a length in a step. Chosen."""
 
+OWN = (0.0, 0.25, 0.5, 1.0)
+"""Shares of the surface's own lengths to start from, the first of which the triangles close.
+
+Chosen.
+"""
+
 HALVINGS = 6
 """How often a step is halved until it helps. Chosen: smaller steps lead nowhere."""
 
-MENDINGS = 2000
-"""Rounds in which lengths are evened out until all triangles close. Chosen; some tens are usual."""
+MENDINGS, AGAIN = 200, 10
+"""Rounds in which lengths are evened out until all triangles close, before flips are tried again.
+
+Chosen; some tens are usual.
+"""
 
 RIDGE = 1e-11
 """Added to the diagonal, relative: on a closed surface one of the conditions follows from others.
@@ -124,9 +133,8 @@ def flat_metric(
     """
     if (matching.quads < 1).any():
         return None  # no map has room for a sector without quads
-    metric = _Metric(matching, log_lengths, theta)
-    metric.flip_flat()
-    if not metric.close():
+    metric = _started(matching, log_lengths, theta)
+    if metric is None:
         return None
     for step in range(STEPS + 1):
         target = metric.target()
@@ -148,13 +156,24 @@ def flat_metric(
     return None
 
 
+def _started(matching: Matching, log_lengths: FloatArray, theta: FloatArray) -> _Metric | None:
+    """Return a metric of triangles that close, with lengths as near as may be to those wanted."""
+    own = np.log(matching.triangulation.lengths.reshape(-1))
+    own += (log_lengths - own).mean()
+    for share in OWN:
+        metric = _Metric(matching, log_lengths, theta)
+        metric.log_lengths += share * (own - log_lengths)
+        if metric.close():
+            return metric
+    return None
+
+
 def _stepped(metric: _Metric, change: FloatArray, before: float) -> _Metric | None:
     """Return the metric after a step, halved until the squares of what is off are fewer."""
     share = min(1.0, FARTHEST / max(float(np.abs(change).max()), 1e-300))
     for _ in range(HALVINGS):
         trial = metric.copied()
         trial.log_lengths += share * change
-        trial.flip_flat()
         if trial.close():
             target = trial.target()
             off = _Conditions(trial, target).off(target)
@@ -278,6 +297,14 @@ class _Metric:
         return np.asarray(diagonal)
 
     def close(self) -> bool:
+        """Flip edges, and even lengths out, until all triangles close; return whether they do."""
+        for _ in range(AGAIN):
+            self.flip_flat()
+            if self._evened():
+                return True
+        return False
+
+    def _evened(self) -> bool:
         """Even lengths out until all triangles close with some slack; return whether they do."""
         inner = self.twin >= 0
         for _ in range(MENDINGS):
@@ -285,19 +312,16 @@ class _Metric:
             open_ = np.flatnonzero(~(_slack(lengths) >= SLACK))
             if not len(open_):
                 return True
-            if not np.isfinite(lengths).all():
-                return False
-            rows, longest = np.arange(len(open_)), lengths[open_].argmax(axis=1)
+            longest = lengths[open_].argmax(axis=1)
             most = lengths[open_, longest]
-            rest = lengths[open_].sum(axis=1) - most
-            half = 0.5 * np.log(most * (1 + 1.1 * SLACK) / rest)
+            half = 0.5 * np.log(most * (1 + 1.1 * SLACK) / (lengths[open_].sum(axis=1) - most))
             change = np.zeros_like(lengths)
             change[open_] = half[:, None]
-            change[open_[rows], longest] *= -1
-            moved, count = change.reshape(-1), (change.reshape(-1) != 0).astype(float)
+            change[open_, longest] *= -1
+            moved = change.reshape(-1)
+            count = (moved != 0) + np.where(inner, moved[self.twin] != 0, False)
             moved = moved + np.where(inner, moved[self.twin], 0.0)
-            count = count + np.where(inner, count[self.twin], 0.0)
-            self.log_lengths += moved / np.maximum(count, 1.0)
+            self.log_lengths += moved / np.maximum(count, 1)
         return False
 
 

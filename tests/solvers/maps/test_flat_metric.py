@@ -31,9 +31,9 @@ def with_one_of(valence: int, surface: TriSurface) -> IntegratedField:
     return IntegratedField(aligned, aligned.start)
 
 
-@pytest.mark.parametrize("valence", [12, 16])
-def test_large_valences_get_the_triangles_that_they_need(valence: int) -> None:
-    map_ = seamless_map(with_one_of(valence, sphere(subdivisions=3)))
+@pytest.mark.parametrize("valence", [1, 2, 8, 12, 16, 20, 24])
+def test_every_valence_gets_the_triangles_that_it_needs(valence: int) -> None:
+    map_ = seamless_map(with_one_of(valence, sphere(subdivisions=2)))
     assert map_.upright
     z = map_.images @ np.array([1, 1j])
     assert np.abs(z.sum(axis=1)).max() < 1e-12 * np.abs(z).max()
