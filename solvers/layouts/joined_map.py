@@ -5,10 +5,13 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import csc_array
 
+from solvers.errors import counted
 from solvers.fields.aligned import IntegratedField
+from solvers.fields.verdict import STRICT
 from solvers.layouts.charts import Chart
 from solvers.layouts.errors import LayoutError
 from solvers.maps.seamless import SeamlessFit
+from solvers.remedies import MAKE_VALID
 from solvers.surface.triangulation import IntArray
 from solvers.surface.trisurface import TriSurface
 
@@ -77,23 +80,28 @@ class JoinedMap:
         return Chart(matching.working, images, matching.period_jumps)
 
     def require_upright(self) -> None:
-        """Raise `LayoutError` if triangles are inverted."""
-        over = self.inverted
-        if len(over) == 0:
+        """Raise `LayoutError` if triangles are inverted or vertices are wound around wrongly."""
+        map_ = self._fit.map
+        if map_.upright:
             return
         field, t = self.integrated.field, self.chart.triangulation
-        centres = t.corner_positions[over].mean(axis=1)
-        over = self.chart.working.lift(over, centres).face
+        if len(map_.inverted):
+            fault = f"{counted(len(map_.inverted), 'triangle')} inverted"
+            faces = map_.inverted
+        else:
+            fault = f"{counted(len(map_.wrong_windings), 'vertex')} with the wrong number of quads"
+            faces = np.flatnonzero(np.isin(t.faces, map_.wrong_windings).any(axis=1))
+        faces = self.chart.working.lift(faces, t.corner_positions[faces].mean(axis=1)).face
         places = field.surface.positions([s.point for s in field.singularities])
         where = ""
         if len(places):
-            gaps = np.linalg.norm(field.surface.barycentres[over][:, None] - places, axis=2)
+            gaps = np.linalg.norm(field.surface.barycentres[faces][:, None] - places, axis=2)
             near = np.unique(gaps.argmin(axis=1)) + 1
             where = "near " + ", ".join(f"singularity {n}" for n in near[:4])
-        which = "1 triangle is" if len(over) == 1 else f"{len(over)} triangles are"
+        bridged = STRICT.missed(self.integrated.aligned.isotropic.defects).any()
         raise LayoutError(
-            f"{which} inverted in the seamless map",
+            f"no injective map was found, the best has {fault}",
             where,
-            "move these singularities apart, refine more around them, or take a finer mesh",
-            faces=over,
+            remedies=(MAKE_VALID,) if bridged else (),
+            faces=faces,
         )

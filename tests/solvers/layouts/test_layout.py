@@ -220,6 +220,6 @@ def test_triangles_turned_over_are_named_with_the_singularities_near_them() -> N
     surface = BUILTIN["torus"](n=32)
     places = surface.vertices[[0, surface.n_vertices // 2]]
     field = integrated(surface, at_places(surface, places, [3, 5]))
-    with pytest.raises(LayoutError, match=r"inverted .* \(near singularity") as refused:
+    with pytest.raises(LayoutError, match=r"inverted \(near singularity") as refused:
         run(quad_layout(field, Verdict("not found", "Taken for possible.")))
     np.testing.assert_array_equal(refused.value.faces, seamless_map(field).inverted)
