@@ -71,7 +71,7 @@ class SeamlessMap:
 
     @property
     def upright(self) -> bool:
-        """Whether it is injective near every point: nothing inverted, nothing wound wrongly."""
+        """Whether it is injective near every point, nothing inverted and nothing wound wrongly."""
         return not len(self.inverted) and not len(self.wrong_windings)
 
     @frozen_property
