@@ -11,7 +11,7 @@ k_i to the place of k_j changes the first part by
     (pi/2) k_i (H_i - H_j) + (pi/2)^2 k_i^2 (G_ii + G_jj - 2 G_ij) / 2
 
 and the second by what the holonomy potentials tell: a look-up a pair. A Dirac is as wide as a
-triangle here; what its core costs falls out where one index cancels another only if both cores do.
+triangle, so G_ii holds what the core of a singularity costs.
 """
 
 from __future__ import annotations
