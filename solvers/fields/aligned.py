@@ -97,7 +97,7 @@ class AlignedField:
         Parameters
         ----------
         fraction : float
-            From 0, the isotropic field, to 1, the aligned one.
+            From 0, the isotropic field, to 1, the aligned one; below 0 off to the other side.
         """
         i = self.integrability
         conjugate = self.isotropic.solved.H[i.triangulation.faces] + fraction * self.correction

@@ -64,7 +64,7 @@ def anisotropic_field(
     sizes: FloatArray | None = None,
     *,
     smooth: bool = True,
-    stages: int = 1,
+    detour: float | None = None,
 ) -> Generator[Progress, None, IntegratedField]:
     """Find two scales and an angle with E = 0: Newton, homotopy where it fails, smoothing.
 
@@ -76,10 +76,11 @@ def anisotropic_field(
         Sizes to follow as closely as E = 0 allows: one for both branches, or one along the
         branch nearer to the x axis and one along the other.
     smooth : bool, optional
-        Whether to move along E = 0 to the smoothest scales, at each stage.
-    stages : int, optional
-        Into how many parts the way from the isotropic field is cut; there are many fields with
-        E = 0, and another way leads to another.
+        Whether to move along E = 0 to the smoothest scales.
+    detour : float, optional
+        Fraction of the correction, as of `AlignedField.partly`, with which to solve first; by
+        default straight to all of it. There are many fields with E = 0, and another way leads to
+        another.
 
     Returns
     -------
@@ -115,10 +116,7 @@ def anisotropic_field(
     if sizes is not None:
         target = _log_targets(aligned, sizes)
     newton = MinimumNormNewton(aligned.integrability)
-    if stages == 1:
-        way = _solve(aligned, newton)
-    else:
-        way = by_stages(aligned, newton, stages, smooth=smooth)
+    way = _solve(aligned, newton) if detour is None else by_detour(aligned, newton, detour)
     integrated = yield from _shown(aligned, "anisotropic", way)
     if (
         smooth
@@ -180,9 +178,7 @@ def _solve(aligned: AlignedField, newton: MinimumNormNewton) -> Iteration:
     return direct
 
 
-def by_stages(
-    aligned: AlignedField, newton: MinimumNormNewton, stages: int, *, smooth: bool = False
-) -> Iteration:
+def by_stages(aligned: AlignedField, newton: MinimumNormNewton, stages: int) -> Iteration:
     """Turn the misaligned boundaries and handles to zero bit by bit, with E = 0 at each stage.
 
     The isotropic field is integrable, whatever its defects; the field with a fraction of the
@@ -196,16 +192,34 @@ def by_stages(
         On its integrability problem.
     stages : int
         Into how many parts the correction is cut.
-    smooth : bool, optional
-        Whether to move along E = 0 to the smoothest scales at each stage before the last.
     """
     x = aligned.start
-    follow_none = np.zeros((aligned.integrability.triangulation.n_faces, 2, 3))
     for stage in range(1, stages):
         partly = MinimumNormNewton(aligned.partly(stage / stages))
         x = (yield from partly.solve(x)).x
-        if smooth:
-            x = (yield from partly.slide(x, follow_none)).x
+    return (yield from newton.solve(x))
+
+
+def by_detour(aligned: AlignedField, newton: MinimumNormNewton, fraction: float) -> Iteration:
+    """Go by the smoothest field with another part of the harmonic correction.
+
+    Where singularities are to be far apart along a boundary, crosses that nearly follow it spiral,
+    and the aspect of the smoothest field grows as the logarithm of what they miss, beyond all
+    bounds. From the other side, a negative fraction, the way leads to a field that stays bounded.
+
+    Parameters
+    ----------
+    aligned : AlignedField
+        Where to get.
+    newton : MinimumNormNewton
+        On its integrability problem.
+    fraction : float
+        As of `AlignedField.partly`.
+    """
+    partly = MinimumNormNewton(aligned.partly(fraction))
+    x = (yield from partly.solve(aligned.start)).x
+    follow_none = np.zeros((aligned.integrability.triangulation.n_faces, 2, 3))
+    x = (yield from partly.slide(x, follow_none)).x
     return (yield from newton.solve(x))
 
 

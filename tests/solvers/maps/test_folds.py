@@ -56,11 +56,18 @@ def test_a_torus_folded_by_the_nearest_turns_is_upright_by_others() -> None:
     assert found.integrated.field.max_log_aspect < first.integrated.field.max_log_aspect
 
 
-def test_an_annulus_is_upright_on_another_way_by_the_same_turns() -> None:
+@pytest.mark.parametrize(
+    ("inner", "n", "radii", "degrees"),
+    [(0.476, 64, (0.71, 0.66), 122), (0.317, 48, (0.7, 0.88), 163)],
+)
+def test_an_annulus_is_upright_on_another_way_by_the_same_turns(
+    inner: float, n: int, radii: tuple[float, float], degrees: float
+) -> None:
     """As it has to be where turns are asked for."""
-    surface = BUILTIN["annulus"](inner=0.301, n=64)
+    surface = BUILTIN["annulus"](inner=inner, n=n)
+    x, y = radii[1] * np.cos(np.radians(degrees)), radii[1] * np.sin(np.radians(degrees))
     first = MappedField.of(
-        run(anisotropic_field(start(surface, [[0.887, 0, 0], [-0.817, 0.344, 0]], [3, 5])))
+        run(anisotropic_field(start(surface, [[radii[0], 0, 0], [x, y, 0]], [3, 5])))
     )
     assert first.integrated.field.energy < 1e-10
     assert first.folded
