@@ -303,8 +303,7 @@ def test_cad_files_come_out_aligned(name: str) -> None:
     assert misalignment(aligned.field) < 1e-6
     assert misalignment(integrated.field) < 1e-6
     assert integrated.field.energy < 1e-10
-    if name == "wingnut.obj":  # the plate has slivers across, too few triangles for a map
-        assert len(seamless_map(integrated).inverted) == 0
+    assert len(seamless_map(integrated).inverted) == 0
 
 
 def test_pointy_has_no_edge_as_sharp_and_is_aligned_with_its_boundary() -> None:
