@@ -1,11 +1,12 @@
 """The study of docs/maps.md: how many surfaces and configurations get their map, and what stops it.
 
-    CROSSVIEW_DATA=folder python -m benchmarks.maps docs/maps.md rows.jsonl
+    CROSSVIEW_DATA=folder python -m benchmarks.maps docs/maps.md rows.jsonl [minutes]
 
 tries each surface of the folder and each of `poor_surfaces` plainly and with sharp edges followed,
 random valid configurations, and one singularity of each valence. Each runs in a process of its own
 with limits of time and memory; what became of it is added to the rows, and what is there already is
-not run again. The tables are written between the lines of the page that mark their place.
+not run again. After so many minutes, if any are given, no other row is begun. The tables are
+written between the lines of the page that mark their place.
 """
 
 from __future__ import annotations
@@ -42,7 +43,7 @@ from solvers.progress import run
 Row = dict[str, Any]
 
 BEGIN, END = "<!-- table -->", "<!-- end of table -->"
-PATIENCE = 120.0
+PATIENCE = 60.0
 """Seconds that one row may take."""
 
 MEMORY = 12 * 2**30
@@ -58,14 +59,15 @@ WAYS = {"plain": Marking(), "features": Marking(dihedral_degrees=SHARP)}
 
 
 def linear(integrated: IntegratedField) -> SeamlessMap:
-    """The map nearest to the field, as one solve gives it."""
-    with patch.object(seamless, "ROUNDS", 0):
+    """The map nearest to the field, as one solve gives it, inverted triangles left as they are."""
+    none = patch.object(seamless, "flat_metric", return_value=None)
+    with none, patch.object(seamless, "ROUNDS", 0):
         return seamless_map(integrated)
 
 
 STEPS: dict[str, Callable[[IntegratedField], SeamlessMap]] = {
     "linear": linear,
-    "mended": seamless_map,
+    "repaired": seamless_map,
 }
 """The maps of a field, one after each step, the last the one that is used."""
 
@@ -139,7 +141,7 @@ def _one(name: str, way: str, say: Callable[..., None], factors: list[int]) -> N
     say(solve_seconds=round(time.perf_counter() - start, 2), solve_factors=len(factors) - before)
     say(verdict=solution.verdict.status, reason=solution.verdict.reason)
     say(unusable=solution.verdict.refused, energy=solution.field.energy, stage="map")
-    say(solved_triangles=solution.surface.n_faces)
+    say(solved_triangles=solution.surface.n_faces, released=len(solution.released.curves))
     _maps(solution, say, factors)
     say(stage="done")
 
@@ -148,32 +150,33 @@ def _maps(solution: Solution, say: Callable[..., None], factors: list[int]) -> N
     """Tell what is wrong with the map of a solution after each step."""
     integrated = solution.integrated
     assert integrated is not None
-    connectivity = connectivity_of(integrated)
-    say(sectors_empty=int((sums_in_sectors(connectivity, _prescribed(integrated)) < 0.5).sum()))
-    quads = wanted_quads(solution)
     for step, make in STEPS.items():
         start, before = time.perf_counter(), len(factors)
-        found = check(connectivity, make(integrated).images.reshape(-1, 2), quads)
+        map_ = make(integrated)
         seconds = round(time.perf_counter() - start, 2)
+        connectivity = connectivity_of(map_)
+        found = check(connectivity, map_.images, wanted_quads(solution, map_))
         say(**{step: {**vars(found), "seconds": seconds, "factors": len(factors) - before}})
+        if step == "linear":  # its triangles are those of the field
+            angles = sums_in_sectors(connectivity, _prescribed(integrated))
+            say(sectors_empty=int((angles < 0.5).sum()))
 
 
-def connectivity_of(integrated: IntegratedField) -> Connectivity:
-    """What the check needs of the triangulation that a field lives on."""
-    i = integrated.aligned.integrability
-    t = i.triangulation
-    followed = t.twin < 0
-    edges = t.edge_halfedges[i.aligned_edges]
-    followed[edges] = True
-    inner = edges[t.twin[edges] >= 0]
-    followed[t.twin[inner]] = True
-    return Connectivity(t.faces.reshape(-1), t.twin, followed)
+def connectivity_of(map_: SeamlessMap) -> Connectivity:
+    """What the check needs of the triangles that a map lives on."""
+    t = map_.matching.triangulation
+    return Connectivity(t.faces.reshape(-1), t.twin, map_.matching.aligned | (t.twin < 0))
 
 
-def wanted_quads(solution: Solution) -> np.ndarray:
-    """How many quads are to meet at each vertex of the surface solved on."""
-    surface = solution.surface
-    quads = np.where(surface.boundary_vertices, 2, 4)
+def wanted_quads(solution: Solution, map_: SeamlessMap) -> np.ndarray:
+    """How many quads are to meet at each vertex of the triangles that a map lives on.
+
+    Not read from the map's matching: vertices that the surface does not have are regular.
+    """
+    surface, t = solution.surface, map_.matching.triangulation
+    border = np.flatnonzero(t.twin < 0)
+    quads = np.full(t.n_vertices, 4)
+    quads[t.tail[border]] = 2
     for vertex, index in solution.prepared.corners.items():
         quads[vertex] -= index
     for s in solution.singularities:
@@ -244,6 +247,8 @@ def cause(row: Row) -> str:
             return "valence refused"
         return f"refused ({stage})"
     if row["unusable"]:
+        if row["verdict"] == "impossible":
+            return "impossible"
         return "misaligned" if " off a " in row["reason"] else "not integrable"
     assert last is not None
     wrong = {fault for fault in vars(Findings(0, 0, 0, 0, 0, 0)) if last[fault]}
@@ -279,12 +284,12 @@ def rates(rows: list[Row], named: Callable[[Row], str]) -> list[str]:
 
 def table(rows: list[Row]) -> list[str]:
     """All rows, those that fail first."""
-    head = ["surface", "triangles", "way", "singularities", "verdict", "isotropic"]
+    head = ["surface", "triangles", "way", "singularities", "released", "verdict", "isotropic"]
     head += ["empty sectors", *(f"{s}: inverted, windings" for s in STEPS), "seconds"]
     head += ["factorisations", "why not"]
     lines = [
         "| " + " | ".join(head) + " |",
-        "|---|---:|---|---:|---|---|" + "---:|" * (3 + len(STEPS)) + "---|",
+        "|---|---:|---|---:|---:|---|---|" + "---:|" * (3 + len(STEPS)) + "---|",
     ]
     for row in sorted(rows, key=lambda r: (not cause(r), r["name"], r["way"])):
         steps = [row.get(s) for s in STEPS]
@@ -292,7 +297,8 @@ def table(rows: list[Row]) -> list[str]:
         why = f"{cause(row)}: {said}" if cause(row) else ""
         cells: list[object] = [row["name"], row.get("triangles", ""), row["way"]]
         cells += [
-            row.get(k, "") for k in ("singularities", "verdict", "isotropic", "sectors_empty")
+            row.get(k, "")
+            for k in ("singularities", "released", "verdict", "isotropic", "sectors_empty")
         ]
         cells += [f"{s['inverted']}, {s['windings']}" if s else "" for s in steps]
         cells += [row.get("total", ""), steps[-1]["factors"] if steps[-1] else ""]
@@ -301,26 +307,34 @@ def table(rows: list[Row]) -> list[str]:
     return lines
 
 
-def page_of(rows: list[Row]) -> str:
-    """The tables."""
+def page_of(rows: list[Row], every: list[tuple[str, str]]) -> str:
+    """The tables of the rows that were run, of all."""
     by_kind = {
         k: [r for r in rows if kind(r) == k] for k in ("surfaces", "configurations", "valences")
     }
     surfaces, drawn, valences = by_kind.values()
-    parts = ["## Surfaces", "", *rates(surfaces, lambda r: r["way"]), "", *table(surfaces), ""]
+    of = Counter(kind({"name": name, "way": way}) for name, way in every)
+    run_of = {k: f"{len(of_kind)} of {of[k]} rows run:" for k, of_kind in by_kind.items()}
+    parts = ["## Surfaces", "", run_of["surfaces"], "", *rates(surfaces, lambda r: r["way"])]
+    parts += ["", *table(surfaces), ""]
     of_family = rates(drawn, lambda r: f"{r['name'].partition(',')[0]}, {r['way']}")
     failing = [r for r in drawn if cause(r)]
-    parts += ["## Random valid configurations", "", *rates(drawn, lambda r: r["way"]), ""]
-    parts += [*of_family, "", *(table(failing) if failing else []), ""]
+    parts += ["## Random valid configurations", "", run_of["configurations"], ""]
+    parts += [*rates(drawn, lambda r: r["way"]), "", *of_family, ""]
+    parts += [*table(failing), ""] if failing else []
     of_mesh = rates(valences, lambda r: r["name"].partition(",")[0])
-    parts += ["## One singularity of valence 1 to 24", "", *of_mesh, "", *table(valences)]
+    parts += ["## One singularity of valence 1 to 24", "", run_of["valences"], ""]
+    parts += [*of_mesh, "", *table(valences)]
     return "\n".join(parts)
 
 
-def main(page: Path, kept: Path, folder: Path | None) -> None:
+def main(page: Path, kept: Path, folder: Path | None, minutes: float) -> None:
+    end, every = time.monotonic() + 60 * minutes, list(study(folder))
     rows = [json.loads(line) for line in kept.read_text().splitlines()] if kept.exists() else []
     known = {(r["name"], r["way"]) for r in rows}
-    for name, way in study(folder):
+    for name, way in every:
+        if time.monotonic() >= end:
+            break
         if (Path(name).name, way) in known:
             continue
         rows.append(tried(name, way))
@@ -331,7 +345,7 @@ def main(page: Path, kept: Path, folder: Path | None) -> None:
         )
     before, _, rest = page.read_text(encoding="utf-8").partition(BEGIN)
     after = rest.partition(END)[2]
-    text = before + "\n".join([BEGIN, "", page_of(rows), "", END]) + after
+    text = before + "\n".join([BEGIN, "", page_of(rows, every), "", END]) + after
     page.write_text(text, encoding="utf-8")
 
 
@@ -340,4 +354,5 @@ if __name__ == "__main__":
         one(*sys.argv[2:])
     else:
         data = os.environ.get("CROSSVIEW_DATA")
-        main(Path(sys.argv[1]), Path(sys.argv[2]), Path(data) if data else None)
+        minutes = float(sys.argv[3]) if len(sys.argv) > 3 else float("inf")
+        main(Path(sys.argv[1]), Path(sys.argv[2]), Path(data) if data else None, minutes)
