@@ -27,8 +27,8 @@ INTEGRABLE = 1e-8
 NEARLY_INTEGRABLE = 0.01
 """E up to which an aligned field is the isotropic one as far as the mesh can tell.
 
-Chosen: a fifth of a degree of defect on an annulus. A configuration made valid for the Delaunay
-operator has defects of some hundredths of a degree for that of the surface's own triangles.
+Chosen: a fifth of a degree of defect on an annulus. A configuration made valid on one refinement of
+a surface has defects of some hundredths of a degree on another.
 """
 
 CLOSED = 1e-6

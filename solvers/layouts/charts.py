@@ -63,6 +63,18 @@ class Chart:
         """The triangles."""
         return self.working.triangulation
 
+    def on_surface(self, faces: IntArray) -> IntArray:
+        """Return the triangles (k,) of the surface in which the middles of some of its own lie.
+
+        Parameters
+        ----------
+        faces : (k,) int array
+            Of the triangulation.
+        """
+        return self.working.lift(
+            faces, self.triangulation.corner_positions[faces].mean(axis=1)
+        ).face
+
     @cached_property
     def corners(self) -> ComplexArray:
         """(m, 3) images of the corners, the first at the origin."""

@@ -91,7 +91,7 @@ class JoinedMap:
         else:
             fault = f"{counted(len(map_.wrong_windings), 'vertex')} with the wrong number of quads"
             faces = np.flatnonzero(np.isin(t.faces, map_.wrong_windings).any(axis=1))
-        faces = self.chart.working.lift(faces, t.corner_positions[faces].mean(axis=1)).face
+        faces = self.chart.on_surface(faces)
         places = field.surface.positions([s.point for s in field.singularities])
         where = ""
         if len(places):

@@ -53,7 +53,7 @@ def as_sides(
             ]
             raise LayoutError(
                 f"a piece between the separatrices has {len(corners)} corners instead of four",
-                faces=faces,
+                faces=curves.chart.on_surface(faces),
             )
         first = corners[-1] + 1
         for half, corner in cycle[first:] + cycle[:first]:
