@@ -47,7 +47,8 @@ def layout(solution: Solution) -> Generator[Progress, None, QuadLayout]:
     """
     _require_trusted(solution)
     yield Progress("aligning with the boundaries", 0.0)
-    return (yield from quad_layout(_integrated(solution), solution.verdict))
+    fit = None if solution.mapped is None else solution.mapped.fit
+    return (yield from quad_layout(_integrated(solution), solution.verdict, fit))
 
 
 def layout_soon(solution: Solution) -> Generator[Progress, None, QuadLayout | None]:

@@ -230,9 +230,9 @@ def _solution(
         defects = solver.holonomy.defects(prepared.singularities)
     with _timed(seconds, "verdict"):
         inverted = None if mapped is None else len(mapped.map.inverted)
-        wound = None if mapped is None else len(mapped.map.wrong_windings)
+        wound = 0 if mapped is None else len(mapped.map.wrong_windings)
         turns = None if integrated is None else holonomy_class(integrated.aligned)
-        verdict = judge(field, inverted, limits, wrong_windings=wound or 0, turns=turns)
+        verdict = judge(field, inverted, limits, wrong_windings=wound, turns=turns)
     return Solution(
         problem,
         prepared,
@@ -243,8 +243,7 @@ def _solution(
         integrated,
         limits,
         verdict,
-        inverted,
-        wound,
+        mapped,
     )
 
 

@@ -18,6 +18,7 @@ from solvers.fields import (
 )
 from solvers.frozen import freeze_arrays
 from solvers.layouts import Separatrices, field_separatrices
+from solvers.maps import MappedField
 from solvers.singularities import Singularity
 from solvers.surface import FloatArray, IntArray, Refinement, TriSurface
 
@@ -42,15 +43,13 @@ class Solution:
     seconds : mapping of str to float
         Time of each stage; next to nothing for one that was kept.
     integrated : IntegratedField, or None
-        The field with its seamless map; None for the isotropic method.
+        The field with its unknowns; None for the isotropic method.
     limits : Limits
         Within which the problem's options call a field valid.
     verdict : Verdict
         What the field is worth, and what helps.
-    inverted : int, or None
-        Inverted triangles of the seamless map; None where the field has none.
-    wrong_windings : int, or None
-        Vertices around which the map's angles do not add up to the quads there.
+    mapped : MappedField, or None
+        The field with its seamless map; None where it has none.
 
     Examples
     --------
@@ -75,11 +74,20 @@ class Solution:
     integrated: IntegratedField | None
     limits: Limits
     verdict: Verdict
-    inverted: int | None = None
-    wrong_windings: int | None = None
+    mapped: MappedField | None = None
 
     def __post_init__(self) -> None:
         freeze_arrays(self)
+
+    @property
+    def inverted(self) -> int | None:
+        """Number of inverted triangles of the seamless map; None where there is no map."""
+        return None if self.mapped is None else len(self.mapped.map.inverted)
+
+    @property
+    def wrong_windings(self) -> int | None:
+        """Number of vertices around which the map's angles do not add up to the quads there."""
+        return None if self.mapped is None else len(self.mapped.map.wrong_windings)
 
     @property
     def surface(self) -> TriSurface:

@@ -32,6 +32,8 @@ class JoinedMap:
     ----------
     integrated : IntegratedField
         The field.
+    fit : SeamlessFit
+        Of the field.
 
     Attributes
     ----------
@@ -39,10 +41,10 @@ class JoinedMap:
         The map as it is now.
     """
 
-    def __init__(self, integrated: IntegratedField) -> None:
+    def __init__(self, integrated: IntegratedField, fit: SeamlessFit) -> None:
         self.integrated = integrated
         self._integrability = integrated.aligned.integrability
-        self._fit = SeamlessFit(integrated)
+        self._fit = fit
         self.chart = self._chart()
 
     @property

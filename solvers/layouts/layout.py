@@ -17,6 +17,7 @@ from solvers.layouts.nodes import feature_nodes, singular_nodes
 from solvers.layouts.patches import PatchMesh, sampled
 from solvers.layouts.separatrices import Separatrices
 from solvers.layouts.tmesh import TMesh
+from solvers.maps.seamless import SeamlessFit
 from solvers.progress import Progress
 from solvers.surface.triangulation import FloatArray
 from solvers.surface.trisurface import TriSurface
@@ -102,7 +103,7 @@ class QuadLayout:
 
 
 def quad_layout(
-    integrated: IntegratedField, verdict: Verdict | None = None
+    integrated: IntegratedField, verdict: Verdict | None = None, fit: SeamlessFit | None = None
 ) -> Generator[Progress, None, QuadLayout]:
     """Cut a surface into rectangles along the separatrices of a field.
 
@@ -116,6 +117,8 @@ def quad_layout(
     verdict : Verdict, optional
         On the field, or on that of the same configuration on other triangles; by default as
         `judge` gives it.
+    fit : SeamlessFit, optional
+        Of the field, where it is known.
 
     Returns
     -------
@@ -153,7 +156,7 @@ def quad_layout(
     if verdict.refused:
         raise LayoutError(verdict.reason.rstrip("."), remedies=verdict.remedies)
     yield Progress("fitting the seamless map", 0.0)
-    map_ = JoinedMap(integrated)
+    map_ = JoinedMap(integrated, SeamlessFit(integrated) if fit is None else fit)
     map_.require_upright()  # joining turns no more over
     yield Progress("tracing separatrices", 0.4)
     singular = singular_nodes(map_.chart, integrated.field)

@@ -18,7 +18,7 @@ from solvers.fields.aligned import AlignedField, IntegratedField, aligned_field
 from solvers.fields.integrable import anisotropic_field
 from solvers.fields.verdict import EXTREME_ASPECT
 from solvers.maps.closed_images import SeamlessMap
-from solvers.maps.seamless import seamless_map
+from solvers.maps.seamless import SeamlessFit
 from solvers.progress import Progress
 from solvers.surface.triangulation import QUARTER, FloatArray
 
@@ -41,8 +41,8 @@ class MappedField:
     ----------
     integrated : IntegratedField
         The field.
-    map : SeamlessMap
-        The map nearest to it.
+    fit : SeamlessFit
+        The map nearest to it, and what further conditions on it need.
 
     Examples
     --------
@@ -56,7 +56,7 @@ class MappedField:
     """
 
     integrated: IntegratedField
-    map: SeamlessMap
+    fit: SeamlessFit
 
     @classmethod
     def of(cls, integrated: IntegratedField) -> MappedField:
@@ -67,7 +67,12 @@ class MappedField:
         integrated : IntegratedField
             The field.
         """
-        return cls(integrated, seamless_map(integrated))
+        return cls(integrated, SeamlessFit(integrated))
+
+    @property
+    def map(self) -> SeamlessMap:
+        """The map nearest to the field."""
+        return self.fit.map
 
     @property
     def faults(self) -> int:

@@ -8,6 +8,7 @@ from solvers.layouts.joined_map import JoinedMap
 from solvers.layouts.layout import quad_layout
 from solvers.layouts.nodes import singular_nodes, starts_at
 from solvers.layouts.tracing import trace
+from solvers.maps.seamless import SeamlessFit
 from solvers.primitives import disk, sphere
 from solvers.progress import run
 from tests.solvers.layouts.fields import at_places, integrated
@@ -29,7 +30,8 @@ def random_passings(seed: int) -> tuple[int, int]:
     """How many separatrices leave 24 random places of a sphere, and how many are taken to meet."""
     surface = sphere(subdivisions=4)
     places = separated(surface, seed, [3] * 8 + [3, 5] * 8, 0.2)
-    map_ = JoinedMap(integrated(surface, places))
+    field = integrated(surface, places)
+    map_ = JoinedMap(field, SeamlessFit(field))
     nodes = singular_nodes(map_.chart, map_.integrated.field)
     starts = starts_at(map_.chart, nodes)
     traces = trace(map_.chart, nodes, starts, 0.02, 4 * map_.chart.diameter)

@@ -18,7 +18,7 @@ from solvers.layouts.layout import QuadLayout, quad_layout
 from solvers.layouts.motorcycles import stops
 from solvers.layouts.nodes import singular_nodes, starts_at
 from solvers.layouts.tracing import NODE, Traces, trace
-from solvers.maps.seamless import seamless_map
+from solvers.maps.seamless import SeamlessFit, seamless_map
 from solvers.primitives import BUILTIN
 from solvers.progress import run
 from solvers.singularities.budget import Singularity
@@ -137,7 +137,8 @@ def test_nearly_collinear_singularities_are_joined() -> None:
 
 
 def test_a_trace_that_ends_beside_a_node_is_led_onto_it() -> None:
-    map_ = JoinedMap(FIELDS["disk with four"]())
+    field = FIELDS["disk with four"]()
+    map_ = JoinedMap(field, SeamlessFit(field))
     nodes = singular_nodes(map_.chart, map_.integrated.field)
 
     def traced() -> Traces:
