@@ -61,10 +61,10 @@ FARTHEST = 1.0
 """Largest change of the logarithm of a length in a step. Chosen."""
 
 OWN = (0.0, 0.25, 0.5, 1.0)
-"""Shares of the surface's own lengths to start from, the first of which the triangles close.
+"""Shares of the surface's own lengths in those that are started from. Chosen."""
 
-Chosen.
-"""
+TRIES = 2
+"""How many starts are tried. Chosen."""
 
 HALVINGS = 6
 """How often a step is halved until it helps. Chosen: smaller steps lead nowhere."""
@@ -133,9 +133,15 @@ def flat_metric(
     """
     if (matching.quads < 1).any():
         return None  # no map has room for a sector without quads
-    metric = _started(matching, log_lengths, theta)
-    if metric is None:
-        return None
+    for metric in _starts(matching, log_lengths, theta)[:TRIES]:
+        found = _flattened(metric)
+        if found is not None:
+            return found
+    return None
+
+
+def _flattened(metric: _Metric) -> FlatMetric | None:
+    """Return the flat metric that Newton steps lead to from one of triangles that close."""
     for step in range(STEPS + 1):
         target = metric.target()
         conditions = _Conditions(metric, target)
@@ -156,16 +162,19 @@ def flat_metric(
     return None
 
 
-def _started(matching: Matching, log_lengths: FloatArray, theta: FloatArray) -> _Metric | None:
-    """Return a metric of triangles that close, with lengths as near as may be to those wanted."""
+def _starts(matching: Matching, log_lengths: FloatArray, theta: FloatArray) -> list[_Metric]:
+    """Return metrics of triangles that close to start from, that nearest to a flat one first."""
     own = np.log(matching.triangulation.lengths.reshape(-1))
     own += (log_lengths - own).mean()
+    found = []
     for share in OWN:
         metric = _Metric(matching, log_lengths, theta)
         metric.log_lengths += share * (own - log_lengths)
         if metric.close():
-            return metric
-    return None
+            target = metric.target()
+            off = _Conditions(metric, target).off(target)
+            found.append((float(off @ off), metric))
+    return [metric for _, metric in sorted(found, key=lambda pair: pair[0])]
 
 
 def _stepped(metric: _Metric, change: FloatArray, before: float) -> _Metric | None:
