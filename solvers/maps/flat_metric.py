@@ -157,7 +157,10 @@ def _flattened(metric: _Metric) -> FlatMetric | None:
             break
         following = _stepped(metric, change, float(off @ off))
         if following is None:
-            break
+            # all that is obtuse, once nothing else helps
+            following = metric.copied()
+            if not (following.flip_flat(QUARTER) and following.close()):
+                break
         metric = following
     return None
 
@@ -241,20 +244,33 @@ class _Metric:
         sides = own[:, [1, 2, 0]] - own
         return np.asarray((np.angle(sides) - self._edit.angles[:, None]).reshape(-1))
 
-    def flip_flat(self) -> None:
-        """Flip edges opposite too large angles, of triangles that close or not, where it helps."""
+    def flip_flat(self, obtuse: float = OBTUSE) -> bool:
+        """Flip edges opposite too large angles, of triangles that close or not, where it helps.
+
+        Parameters
+        ----------
+        obtuse : float, optional
+            The largest angle that is not too large, radians.
+
+        Returns
+        -------
+        bool
+            Whether there was one.
+        """
+        flipped = False
         while True:
             h = np.flatnonzero(self.twin > np.arange(len(self.twin)))
             h = h[(h // 3 != self.twin[h] // 3) & ~self._edit.fixed(h)]
             one, other = self._cosine_opposite(h), self._cosine_opposite(self.twin[h])
-            flat = (one + other < -1e-8) & (np.minimum(one, other) < np.cos(OBTUSE))
+            flat = (one + other < -1e-8) & (np.minimum(one, other) < np.cos(obtuse))
             h, rank = h[flat], (one + other)[flat]
             convex = _convex(_angles(self._edit.lengths), h, self.twin[h])
             h, rank = h[convex], rank[convex]
             if not len(h):
-                return
+                return flipped
             now = self._edit.disjoint(rank, h // 3, self.twin[h] // 3)
             self._flip(h[now])
+            flipped = True
 
     def _cosine_opposite(self, h: IntArray) -> FloatArray:
         """Return the cosine of the angle opposite each halfedge, below -1 if none closes."""
