@@ -33,7 +33,7 @@ from solvers.surface.triangulation import (
 )
 from solvers.surface.working import Edit
 
-STEPS = 15
+STEPS = 20
 """Newton steps at most. Chosen: those that come to an end take 3 to 13."""
 
 FLAT = 1e-9
@@ -47,6 +47,9 @@ SLACK = 1e-3
 
 Chosen: angles up to about 175 degrees.
 """
+
+LEAST_SLACK = 1e-6
+"""The same where no step helps otherwise. Chosen, above rounding."""
 
 OBTUSE = np.radians(140)
 """Angle opposite an edge beyond which it is flipped, if flipping helps, radians. Chosen."""
@@ -63,7 +66,7 @@ FARTHEST = 1.0
 OWN = (0.0, 0.25, 0.5, 1.0)
 """Shares of the surface's own lengths in those that are started from. Chosen."""
 
-TRIES = 2
+TRIES = 4
 """How many starts are tried. Chosen."""
 
 HALVINGS = 6
@@ -157,9 +160,8 @@ def _flattened(metric: _Metric) -> FlatMetric | None:
             break
         following = _stepped(metric, change, float(off @ off))
         if following is None:
-            # all that is obtuse, once nothing else helps
-            following = metric.copied()
-            if not (following.flip_flat(QUARTER) and following.close()):
+            following = metric.relieved()
+            if following is None:
                 break
         metric = following
     return None
@@ -202,7 +204,7 @@ class _Metric:
         self._edit: Edit = matching.working.edit(turns=matching.period_jumps, angles=theta)
         self.log_lengths, self._asked = log_lengths.copy(), log_lengths.copy()
         self.sector, self.axes = matching.sector.copy(), matching.axes.copy()
-        self.quads = matching.quads
+        self.quads, self.slack = matching.quads, SLACK
 
     def copied(self) -> _Metric:
         """Return another one to change."""
@@ -211,6 +213,18 @@ class _Metric:
         other.log_lengths, other._asked = self.log_lengths.copy(), self._asked.copy()
         other.sector, other.axes = self.sector.copy(), self.axes.copy()
         return other
+
+    def relieved(self) -> _Metric | None:
+        """Return another one with more room for steps; None if nothing gives any.
+
+        All that is obtuse is flipped, and triangles may be flatter.
+        """
+        other = self.copied()
+        other.slack /= 10
+        flipped = other.flip_flat(QUARTER)
+        if not flipped and other.slack < LEAST_SLACK:
+            return None
+        return other if other.close() else None
 
     def matching(self) -> Matching:
         """Return the topology on the triangles as they are."""
@@ -334,12 +348,12 @@ class _Metric:
         inner = self.twin >= 0
         for _ in range(MENDINGS):
             lengths = np.exp(self.log_lengths).reshape(-1, 3)
-            open_ = np.flatnonzero(~(_slack(lengths) >= SLACK))
+            open_ = np.flatnonzero(~(_slack(lengths) >= self.slack))
             if not len(open_):
                 return True
             longest = lengths[open_].argmax(axis=1)
             most = lengths[open_, longest]
-            half = 0.5 * np.log(most * (1 + 1.1 * SLACK) / (lengths[open_].sum(axis=1) - most))
+            half = 0.5 * np.log(most * (1 + 1.1 * self.slack) / (lengths[open_].sum(axis=1) - most))
             change = np.zeros_like(lengths)
             change[open_] = half[:, None]
             change[open_, longest] *= -1
