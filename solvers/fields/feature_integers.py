@@ -179,6 +179,8 @@ def _solved(cost: FloatArray, rows: Rows, least: FloatArray) -> FloatArray | Non
     """Return the whole numbers of least cost within rows and bounds; None if there are none."""
     if rows.matrix.shape[0] == 0:
         return np.maximum(least, 0.0)
+    if not len(cost):
+        return least if rows.met(least) else None
     found = milp(
         cost,
         integrality=np.ones(len(cost)),

@@ -72,3 +72,9 @@ def test_what_costs_nothing_does_no_harm(matrix: FloatArray) -> None:
     found = nearest_integers(matrix, linear)
     assert np.abs(found).max() < 10
     assert found @ matrix @ found + 2 * linear @ found <= 1e-9
+
+
+def test_a_row_that_no_number_changes_contradicts_by_itself() -> None:
+    rows = Rows(csr_array((2, 0)), np.array([1.0, -1.0]), np.full(2, np.inf))
+    (alone,) = contradictions(rows)
+    assert alone.tolist() == [0]
