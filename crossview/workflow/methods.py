@@ -11,9 +11,11 @@ from solvers.fields import (
     Limits,
     alternating_field,
     anisotropic_field,
+    holonomy_class,
 )
 from solvers.maps import MappedField, unfolded
 from solvers.progress import Progress
+from solvers.singularities import existence
 from solvers.surface import FloatArray
 
 
@@ -49,5 +51,10 @@ def integrate(
 
 
 def with_map(integrated: IntegratedField, limits: Limits) -> MappedField | None:
-    """Return a field with its map; None if it is not integrable and has none."""
-    return None if integrated.field.energy > limits.energy else MappedField.of(integrated)
+    """Return a field with its map; None if it is not integrable, or a theorem says it has none."""
+    field = integrated.field
+    if field.energy > limits.energy:
+        return None
+    turns = holonomy_class(integrated.aligned)
+    known = existence(field.surface, field.singularities, field.corners, turns)
+    return None if known.theorem is not None else MappedField.of(integrated)

@@ -49,7 +49,7 @@ class Solution:
     verdict : Verdict
         What the field is worth, and what helps.
     mapped : MappedField, or None
-        The field with its seamless map; None where it has none.
+        The field with its seamless map; None where it has none, or a theorem says so.
 
     Examples
     --------
