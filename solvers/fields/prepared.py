@@ -20,7 +20,7 @@ from solvers.singularities.budget import (
     default_corners,
 )
 from solvers.surface.points import SurfacePoint
-from solvers.surface.refinement import LEVELS, Refinement, refine_at, refine_everywhere
+from solvers.surface.refinement import LEVELS, Refinement, refine_at
 from solvers.surface.trisurface import TriSurface
 
 
@@ -144,20 +144,6 @@ class PreparedSurface:
             replace(s, point=at.point) for s, at in zip(given, self.singularities, strict=True)
         )
         return replace(self, singularities=placed)
-
-    def refined(self) -> PreparedSurface:
-        """Return it with every triangle split in four, for the same configuration."""
-        finer = refine_everywhere(self.surface)
-        vertices = [self.surface.nearest_vertex(s.point) for s in self.singularities]
-        return PreparedSurface(
-            finer,
-            tuple(s.point for s in self.singularities),
-            tuple(
-                replace(s, point=finer.surface.point_at_vertex(vertex))
-                for s, vertex in zip(self.singularities, vertices, strict=True)
-            ),
-            Operators(finer.surface, self.corners, self.features.refined(finer)),
-        )
 
 
 def prepare(

@@ -54,11 +54,6 @@ def test_singularities_are_vertices_and_stay_where_they_are() -> None:
         for on, singular in ((prepared.surface, prepared.singularities), (surface, configuration))
     )
     np.testing.assert_allclose(here, there, atol=1e-4)
-    again = prepared.refined()
-    np.testing.assert_allclose(
-        again.surface.positions([s.point for s in again.singularities]), here, atol=1e-12
-    )
-    assert again.surface.n_faces == 4 * prepared.surface.n_faces
 
 
 def test_other_valences_keep_the_factors_and_other_places_are_refused() -> None:
