@@ -46,8 +46,8 @@ BEGIN, END = "<!-- table -->", "<!-- end of table -->"
 PATIENCE = 60.0
 """Seconds that one row may take."""
 
-MEMORY = 12 * 2**30
-"""Bytes of addresses that one row may take."""
+MEMORY = 64 * 2**30
+"""Bytes of addresses that one row may take: factorisations reserve many times what they use."""
 
 LARGEST = 40_000
 """Triangles of a surface beyond which it is left out."""
