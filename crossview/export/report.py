@@ -92,7 +92,11 @@ def report(
         "isotropically_valid": solution.valid,
         "boundary_misalignment_degrees": _floats(np.degrees(_by_loop(solution))),
         "features": _features(solution),
-        "released_features": [_curve(solution, curve) for curve in solution.released.curves],
+        "released_features": [
+            {**_curve(solution, curve), "reason": reason}
+            for reason, features in solution.released_for.items()
+            for curve in features.curves
+        ],
         "forced_corners": _forced_corners(solution),
         **_integrability(solution),
         "layout": _layout(solution, layout),
@@ -150,10 +154,10 @@ def summary(solution: Solution) -> str:
 
 def _released(solution: Solution) -> str:
     """How many feature curves are not followed, and why."""
-    released, every = len(solution.released.curves), len(solution.prepared.features.curves)
-    if not released:
-        return ""
-    return f", released {released} of {every} feature curves: no room for a quad beside them"
+    found = {reason: len(features.curves) for reason, features in solution.released_for.items()}
+    every = len(solution.prepared.features.curves)
+    said = "".join(f", {n} for {reason}" for reason, n in found.items())
+    return f", released of {counted(every, 'feature curve')}: {said[2:]}" if found else ""
 
 
 def _defects(solution: Solution) -> str:

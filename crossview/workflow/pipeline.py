@@ -148,9 +148,9 @@ def _integrated(
     limits = _limits(problem, aligned.solver)
     iteration = integrate(problem.method, aligned, problem.options, sizes, limits)
     with _timed(seconds, "solve"):
-        integrated, mapped = yield from between(iteration, 0.3, 0.9)
+        solved = yield from between(iteration, 0.3, 0.9)
     yield Progress("judging", 0.9)
-    return _integrated_solution(problem, integrated, mapped, limits, seconds)
+    return _integrated_solution(problem, solved.integrated, solved.mapped, limits, seconds)
 
 
 @contextmanager

@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
+import numpy as np
+
 from crossview.workflow.problem import Problem
 from solvers.features import Features, no_features
 from solvers.fields import (
@@ -21,6 +23,9 @@ from solvers.layouts import Separatrices, field_separatrices
 from solvers.maps import MappedField
 from solvers.singularities import Singularity
 from solvers.surface import FloatArray, IntArray, Refinement, TriSurface
+
+NO_ROOM, NO_MAP = "no room for a quad beside them", "no injective map was found with them"
+"""Why features are released."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,9 +117,20 @@ class Solution:
 
     @property
     def released(self) -> Features:
-        """Feature edges of `surface` that are not followed, for want of room for a quad."""
-        integrated = self.integrated
-        return no_features(self.surface) if integrated is None else integrated.aligned.released
+        """Feature edges of `surface` that are not followed."""
+        none = no_features(self.surface)
+        return none.united(
+            np.concatenate([none.edges, *(f.edges for f in self.released_for.values())])
+        )
+
+    @property
+    def released_for(self) -> Mapping[str, Features]:
+        """The released features for each reason that there is to release some, in plain words."""
+        if self.integrated is None:
+            return {}
+        aligned = self.integrated.aligned
+        found = {NO_ROOM: aligned.released, NO_MAP: aligned.without}
+        return {reason: features for reason, features in found.items() if len(features)}
 
     @property
     def turns(self) -> tuple[int, ...]:

@@ -56,9 +56,11 @@ class AlignedField:
         others.
     turns : tuple of int
         Quarter turns over each condition's path, besides those nearest to the isotropic field.
-    turning : (m, 3) float array, optional
+    turning : (m, 3) float array, or None
         What aligns it with features, or by how much the solver turns all crosses; None for
         neither.
+    without : Features
+        Further ones that it does not follow, as it was not to.
 
     Examples
     --------
@@ -84,7 +86,8 @@ class AlignedField:
     integrability: Integrability
     released: Features
     turns: tuple[int, ...]
-    turning: FloatArray | None = None
+    turning: FloatArray | None
+    without: Features
 
     @property
     def features(self) -> Features:
@@ -223,6 +226,7 @@ def aligned_field(
     turns: Sequence[int] | None = None,
     *,
     like: CrossField | None = None,
+    without: Features | None = None,
 ) -> AlignedField:
     """Align the field of a configuration with every boundary, handle and feature.
 
@@ -237,6 +241,8 @@ def aligned_field(
     like : CrossField, optional
         On the same surface. Where neither a boundary nor a feature fixes the direction of the
         crosses, they are turned to be nearest to those of this field.
+    without : Features, optional
+        Features of the prepared surface that are not to be followed.
 
     Returns
     -------
@@ -279,11 +285,14 @@ def aligned_field(
         solver = solver.in_gauge(field.turn_to(like))
         field = solver.solve(singularities)
     conjugate, turning = field.solved.H[d.triangulation.faces], None
-    released = no_features(solver.surface)
+    released = none = no_features(solver.surface)
+    left_out = none if without is None else without.require_on(solver.surface)
     if len(d.features):
-        found = align_with_features(solver.holonomy, conjugate, field.defects, turns)
+        found = align_with_features(
+            solver.holonomy, conjugate, field.defects, turns, left_out.edges
+        )
         turns, turning, released = found.turns.tolist(), found.turning, found.released
-        if len(released):
+        if len(found.discretization.features) < len(d.features):
             d = found.discretization
             solver = solver.following(d)
             field = solver.solve(singularities)
@@ -295,5 +304,5 @@ def aligned_field(
         d, conjugate + correction, features=d.feature_halfedges, turning=turning
     )
     return AlignedField(
-        prepared, solver, field, correction, integrability, released, chosen, turning
+        prepared, solver, field, correction, integrability, released, chosen, turning, left_out
     )

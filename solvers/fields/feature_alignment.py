@@ -16,16 +16,13 @@ from scipy.sparse import csc_array
 
 from solvers.algebra.factorization import factorized
 from solvers.algebra.operators import corner_midpoint_offsets, crouzeix_raviart
-from solvers.features.dihedral import dihedral_angles
 from solvers.features.edges import Features
 from solvers.fields.connection import Discretization
 from solvers.fields.feature_integers import contradictions, nearest_integers, sector_rows
+from solvers.fields.feature_values import curve_values, edge_values
 from solvers.fields.holonomy import Holonomy
 from solvers.fields.sector_quads import SectorQuads, sector_quads, turned_over_corners
 from solvers.surface.triangulation import QUARTER, BoolArray, FloatArray, IntArray
-
-FREE_END = 0.5
-"""What is left of the value of a curve for each of its ends at no other curve. Chosen."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +34,8 @@ class FeatureTurn:
     discretization : Discretization
         With the features that are kept.
     released : Features
-        Those that are not: no whole numbers leave a quad beside each of these and the kept ones.
+        Those that were to be, and are not: no whole numbers leave a quad beside each of these and
+        the kept ones.
     turns : (c,) int array
         Quarter turns to add over each holonomy condition's path.
     turning : (m, 3) float array
@@ -55,7 +53,8 @@ def align_with_features(
     holonomy: Holonomy,
     conjugate: FloatArray,
     defects: FloatArray,
-    turns: Sequence[int] | None = None,
+    turns: Sequence[int] | None,
+    without: IntArray,
 ) -> FeatureTurn:
     """Return the turn that aligns a field with the features of its discretisation.
 
@@ -67,8 +66,10 @@ def align_with_features(
         Corner values of the function whose conjugate the isotropic field is.
     defects : (c,) float array
         The isotropic field's, radians.
-    turns : sequence of int, optional
-        Quarter turns over each condition, where they are not to be chosen.
+    turns : sequence of int, or None
+        Quarter turns over each condition; None: to be chosen.
+    without : (k,) int array
+        Edges of the surface that are not followed although they are features.
 
     Returns
     -------
@@ -79,9 +80,11 @@ def align_with_features(
     if turns is not None:
         given = np.concatenate([[1.0], turns])[:, None]
         angles, corners = angles @ given, corners @ given
-    kept, quads = _kept(every, angles, corners)
+    edges = every.features.edges[every.feature_edge]
+    asked = ~np.isin(edges, without)
+    kept, quads = _kept(every, asked, angles, corners)
     d = every.with_features(kept)
-    released = Features(every.surface, every.features.edges[every.feature_edge[~kept]])
+    released = Features(every.surface, edges[asked & ~kept])
     if not kept.any():
         chosen = np.zeros(len(defects)) if turns is None else np.asarray(turns)
         still = np.zeros_like(conjugate)
@@ -123,16 +126,15 @@ def _turned(
 
 
 def _kept(
-    discretization: Discretization, angles: FloatArray, corners: FloatArray
+    discretization: Discretization, kept: BoolArray, angles: FloatArray, corners: FloatArray
 ) -> tuple[BoolArray, SectorQuads]:
-    """Return which features to keep so that every sector may have a quad, and their quads.
+    """Return which features of some to keep so that every sector may have a quad, and their quads.
 
     Of the curves beside sectors that contradict each other the one of least worth goes.
     """
     t, h = discretization.triangulation, discretization.feature_halfedges
-    bent = dihedral_angles(discretization.surface)[discretization.features.edges]
-    worth = t.lengths.reshape(-1)[h] * (1 + bent[discretization.feature_edge])
-    kept = np.ones(len(h), dtype=bool)
+    worth = edge_values(discretization)
+    kept = kept.copy()
     while True:
         among = np.flatnonzero(kept)
         quads = sector_quads(t, h[among], angles[among], corners)
@@ -140,21 +142,11 @@ def _kept(
         found = contradictions(rows)
         if not found:
             return kept, quads
-        value, number = _values(quads, worth[among]), quads.chains.number
+        value, number = curve_values(quads.chains, quads.sectors, worth[among]), quads.chains.number
         for sectors in (of[each] for each in found):
             beside = np.concatenate([quads.sectors.start[sectors], quads.sectors.end[sectors]])
             concerned = np.unique(number[beside[beside >= 0]])
             kept[among[number == concerned[np.argmin(value[concerned])]]] = False
-
-
-def _values(quads: SectorQuads, worth: FloatArray) -> FloatArray:
-    """Return the value of each chain: the sum of its edges' worth, half for each free end."""
-    s, number = quads.sectors, quads.chains.number
-    free = s.start[(s.start == s.end) & (s.start >= 0)]
-    return np.asarray(
-        np.bincount(number, worth)
-        * FREE_END ** np.bincount(number[free], minlength=number.max() + 1)
-    )
 
 
 class _Filling:

@@ -194,7 +194,7 @@ def sector_quads(
     """
     sectors = sectors_between(triangulation, halfedges)
     rotations = np.stack([sectors.total(each) for each in np.moveaxis(corners, 2, 0)], axis=1)
-    chains, openings = _chains(sectors, _turned_back(sectors, angles, rotations)[:, 0])
+    chains, openings = chained(sectors, _turned_back(sectors, angles, rotations)[:, 0])
     straight = np.zeros(len(chains.links), dtype=np.int64)
     found = SectorQuads(sectors, chains, angles, rotations, straight)
     return replace(found, breaks=_breaks(found, openings))
@@ -228,10 +228,22 @@ def _turned_back(sectors: Sectors, angles: FloatArray, rotations: FloatArray) ->
     return np.rint((rotations - _between(sectors, angles)) / QUARTER).astype(np.int64)
 
 
-def _chains(sectors: Sectors, whole: IntArray) -> tuple[Chains, IntArray]:
+def chained(sectors: Sectors, whole: IntArray) -> tuple[Chains, IntArray]:
     """Link feature edges where two meet at a regular vertex without a sharp turn.
 
-    Returns also the sectors where closed chains are opened, from the last edge to the first.
+    Parameters
+    ----------
+    sectors : Sectors
+        Between the edges.
+    whole : (s,) int array
+        Quads in each; only what they sum to at vertices counts.
+
+    Returns
+    -------
+    chains : Chains
+        Of the edges.
+    openings : (o,) int array
+        The sectors where closed chains are opened, from the last edge to the first.
     """
     s, n = sectors, int(sectors.start.max(initial=-1)) + 1
     at_vertex = np.bincount(s.vertex)[s.vertex]

@@ -132,7 +132,9 @@ def unfolded(
     for turns, detour in ways:
         aligned = start
         if turns != start.turns:
-            aligned = aligned_field(start.prepared, turns, like=start.isotropic)
+            aligned = aligned_field(
+                start.prepared, turns, like=start.isotropic, without=start.without
+            )
         found = yield from anisotropic_field(aligned, sizes, detour=detour)
         if not found.convergence.converged:
             continue
@@ -161,7 +163,9 @@ def neighbouring_turns(aligned: AlignedField) -> list[tuple[int, ...]]:
     chosen = np.array(aligned.turns, dtype=np.int64)
     steps = [sign * row for row in np.eye(len(chosen), dtype=np.int64) for sign in (1, -1)]
     pairs = [one + other for one, other in combinations(steps, 2) if (one + other).any()]
-    turns = chosen + np.array([*steps, *pairs], dtype=np.int64).reshape(-1, len(chosen))
+    if not steps:
+        return []
+    turns = chosen + np.array([*steps, *pairs], dtype=np.int64)
     missed = QUARTER * turns - aligned.isotropic.defects
     energy = (missed * np.linalg.solve(aligned.solver.holonomy.harmonic_energy, missed.T).T).sum(1)
     return [tuple(turns[i].tolist()) for i in np.argsort(energy, kind="stable")]

@@ -116,16 +116,21 @@ def _found(state: SessionState) -> str:
         off = float(np.degrees(np.abs(field.feature_misalignment).max(initial=0.0)))
         text += f", off by up to {degrees(off)}" if off > state.tolerance else ", followed"
     if trial is None and (released := _released(state)):
-        text += f"; {count(released, 'curve')} released: no room for a quad beside them"
+        text += f"; released {released}"
     if trial is None and (forced := _forced(state)):
         text += f"; singularities do not fit at {count(forced, 'vertex', 'vertices')}"
     return text
 
 
-def _released(state: SessionState) -> int:
-    """Return how many curves the field shown does not follow for want of room."""
+def _released(state: SessionState) -> str:
+    """Return how many curves the field shown does not follow, and why; empty if there are none."""
     solution = _shown(state)
-    return 0 if solution is None else len(solution.released.curves)
+    if solution is None:
+        return ""
+    return ", ".join(
+        f"{count(len(features.curves), 'curve')}, {reason}"
+        for reason, features in solution.released_for.items()
+    )
 
 
 def _forced(state: SessionState) -> int:

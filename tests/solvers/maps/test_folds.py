@@ -25,6 +25,12 @@ TORUS_PLACES = [
 """Two valences 3, two 5."""
 
 
+def test_without_conditions_there_are_no_other_turns() -> None:
+    sphere = BUILTIN["sphere"](subdivisions=2)
+    cube = [[x, y, z] for x in (-0.6, 0.6) for y in (-0.6, 0.6) for z in (-0.6, 0.6)]
+    assert neighbouring_turns(start(sphere, cube, [3] * 8)) == []
+
+
 def start(
     surface: TriSurface, places: Sequence[Sequence[float]], valences: Sequence[int]
 ) -> AlignedField:
