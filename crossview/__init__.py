@@ -21,6 +21,7 @@ from importlib.metadata import version
 from crossview.cases.model import Case
 from crossview.library import (
     complete,
+    improve,
     layout,
     make_valid,
     natural,
@@ -53,6 +54,7 @@ __all__ = [
     "SurfacePoint",
     "TriSurface",
     "complete",
+    "improve",
     "layout",
     "make_valid",
     "natural",

@@ -1,8 +1,8 @@
 """The verbs of the command line and of the window as functions, for scripts.
 
 Each takes and returns values that nothing changes afterwards: `read` makes a `Problem`, `natural`,
-`complete` and `make_valid` make others of it, `solve` a `Solution`, `layout` a `QuadLayout`,
-`quads` a `QuadMesh`. What takes long calls `progress`, if it is given, with each
+`complete`, `make_valid` and `improve` make others of it, `solve` a `Solution`, `layout` a
+`QuadLayout`, `quads` a `QuadMesh`. What takes long calls `progress`, if it is given, with each
 `solvers.Progress`.
 """
 
@@ -246,6 +246,43 @@ def make_valid(problem: Problem, *, progress: Watch = None) -> Problem:
     """
     _require("problem", problem, Problem)
     return run(configurations.make_valid(problem), progress)[0]
+
+
+def improve(problem: Problem, *, progress: Watch = None) -> Problem:
+    """Move unlocked singularities to where sizes are most even, all holonomy defects kept at zero.
+
+    Parameters
+    ----------
+    problem : Problem
+        Whose index budget holds; if it is not valid it is made valid first. With a size map, sizes
+        come nearest to it.
+    progress : callable, optional
+        Called with each step; those that are `solvers.validity.Improved` have the sizes.
+
+    Returns
+    -------
+    Problem
+        The same with its singularities moved.
+
+    Raises
+    ------
+    SingularityError
+        None may move, or they cannot be made valid.
+
+    Examples
+    --------
+    >>> import crossview
+    >>> from crossview import Problem, Singularity
+    >>> surface = crossview.primitives.disk(edge_length=0.1)
+    >>> places = [surface.closest_point(x) for x in ([0.2, 0, 0], [0, 0.3, 0], [-0.5, 0, 0])]
+    >>> start = crossview.complete(Problem(surface, [Singularity(x, 3) for x in places]))
+    >>> better = crossview.improve(start)
+    >>> spread = [float(crossview.solve(p).field.H.std()) for p in (start, better)]
+    >>> spread[1] < spread[0]
+    True
+    """
+    _require("problem", problem, Problem)
+    return run(configurations.improve(problem), progress)[0]
 
 
 def solve(problem: Problem, method: str | None = None, *, progress: Watch = None) -> Solution:

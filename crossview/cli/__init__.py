@@ -12,6 +12,7 @@ from crossview import __version__
 from crossview.cases.json_values import nearest
 from crossview.cli.complete import complete
 from crossview.cli.hints import with_command
+from crossview.cli.improve import improve
 from crossview.cli.info import info
 from crossview.cli.make_valid import make_valid
 from crossview.cli.natural import natural
@@ -31,7 +32,7 @@ app = App(
     suppress_keyboard_interrupt=False,
 )
 app.default(window)
-for command in (info, solve, render, gallery, natural, complete, make_valid, schema):
+for command in (info, solve, render, gallery, natural, complete, make_valid, improve, schema):
     app.command(command)
 
 

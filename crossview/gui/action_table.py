@@ -101,6 +101,14 @@ def _movable(state: SessionState) -> bool:
     return state.defects is not None and not state.valid and state.moving is None
 
 
+def _improvable(state: SessionState) -> bool:
+    """Whether the budget holds, some singularity may move, and none is on its way."""
+    document = state.document
+    if document is None or not document.budget.satisfied or state.moving is not None:
+        return False
+    return any(s.index and not s.locked for s in document.singularities)
+
+
 def _naturals() -> tuple[ActionSpec, ...]:
     return tuple(
         ActionSpec(
@@ -287,6 +295,12 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "make-valid", "Make valid", "Singularities", lambda w: w.session.moves.make_valid(),
         tip="Move unlocked singularities as little as need be until every loop closes",
         enabled=_movable, separated=True,
+    ),
+    ActionSpec(
+        "improve", "Improve", "Singularities", lambda w: w.session.moves.improve(),
+        tip="Move unlocked singularities to where sizes are most even, every loop kept closed; "
+        "stopped, they stay where they are",
+        enabled=_improvable,
     ),
     *_naturals(),
     ActionSpec(

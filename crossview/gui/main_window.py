@@ -58,7 +58,7 @@ class MainWindow(QMainWindow):
         self.mouse: Mouse = Mouse(self.viewport, self.session)
         self.surface_panel = SurfacePanel(self.session)
         self.singularities_panel: SingularitiesPanel = SingularitiesPanel(self.session, named)
-        self.validity_panel = ValidityPanel(self.session, named["make-valid"])
+        self.validity_panel = ValidityPanel(self.session, named["make-valid"], named["improve"])
         self.layers_panel = LayersPanel(self.session)
         self.convergence_panel = ConvergencePanel(named["compare"])
         self.quads_panel = QuadsPanel(named["mesh"], named["save-quads"])

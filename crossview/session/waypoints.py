@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Generator
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TypeVar
 
 from crossview.session.commands import Command, ReplaceSingularities
@@ -17,12 +18,15 @@ from solvers.fields import NATURAL_ALIGNMENTS, CrossesStep, CrossField
 from solvers.progress import Progress, relayed
 from solvers.singularities import Singularity
 from solvers.surface import FloatArray
-from solvers.validity import Moved
+from solvers.validity import Improved, Moved
 
 T = TypeVar("T")
 
 TOLD_EVERY = 0.05
 """Least time between two reports of a computation with many short steps, seconds."""
+
+IMPROVE = "improve sizes"
+"""What a history calls the step to more even sizes."""
 
 NATURAL_LABELS = {
     "mbo": "MBO",
@@ -64,16 +68,31 @@ def move_to_validity(
     SingularityError
         As `solvers.validity.make_valid`.
     """
-
-    def show(step: Progress) -> Progress:
-        if not isinstance(step, Moved):
-            return step
-        field = _field(base, step.singularities)
-        return Waypoint(step.stage, step.fraction, step.singularities, step.defects, field)
-
-    _, moved = yield from relayed(configurations.make_valid(document.problem), show)
+    _, moved = yield from relayed(
+        configurations.make_valid(document.problem), partial(_waypoint, base)
+    )
     aimed = f", aimed at {moved.aim}" if moved.aim else ""
     return ReplaceSingularities(moved.singularities, f"make valid{aimed}")
+
+
+def even_sizes_out(
+    document: Document, base: LiveBase | None
+) -> Generator[Progress, None, tuple[Command, Improved]]:
+    """Move the unlocked singularities to where sizes are most even; yields each `Waypoint`.
+
+    Returns
+    -------
+    Command
+    Improved
+        What it gains.
+
+    Raises
+    ------
+    SingularityError
+        As `solvers.validity.improve`.
+    """
+    _, end = yield from relayed(configurations.improve(document.problem), partial(_waypoint, base))
+    return ReplaceSingularities(end.singularities, IMPROVE), end
 
 
 def place_natural(
@@ -110,6 +129,13 @@ def place_natural(
     how = f"{NATURAL_LABELS[method]}, fewest" if fewest else NATURAL_LABELS[method]
     name = f"natural singularities ({how})"
     return ReplaceSingularities(tuple(found.singularities), name, automatic_corners=True)
+
+
+def _waypoint(base: LiveBase | None, step: Progress) -> Progress:
+    if not isinstance(step, Moved):
+        return step
+    field = _field(base, step.singularities)
+    return Waypoint(step.stage, step.fraction, step.singularities, step.defects, field)
 
 
 def _field(base: LiveBase | None, singularities: tuple[Singularity, ...]) -> CrossField | None:

@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Generator
 from dataclasses import replace
 
+import numpy as np
+
 from crossview.workflow.problem import Problem
+from crossview.workflow.sizes import read_sizes
 from solvers import Progress
 from solvers.fields import (
     CURVATURE_WEIGHT,
@@ -16,7 +19,8 @@ from solvers.fields import (
     natural_singularities,
 )
 from solvers.singularities import require_budget
-from solvers.validity import Moved, missing_singularities
+from solvers.validity import Improved, Moved, missing_singularities
+from solvers.validity import improve as moved_to_even_sizes
 from solvers.validity import make_valid as moved_to_validity
 
 Placing = Generator[Progress, None, Problem]
@@ -90,5 +94,33 @@ def make_valid(problem: Problem) -> Generator[Progress, None, tuple[Problem, Mov
     """
     end = yield from moved_to_validity(
         problem.surface, problem.singularities, problem.corners, problem.options.refine
+    )
+    return replace(problem, singularities=end.singularities), end
+
+
+def improve(problem: Problem) -> Generator[Progress, None, tuple[Problem, Improved]]:
+    """Move the unlocked singularities until sizes are most even, or nearest to the size map.
+
+    Of two sizes at a vertex the geometric mean counts.
+
+    Returns
+    -------
+    Problem
+    Improved
+        The last step of the way: its sizes beside those before.
+
+    Raises
+    ------
+    SingularityError
+        As `solvers.validity.improve`.
+    """
+    sizes = problem.options.sizes
+    wanted = None if sizes is None else read_sizes(sizes, problem.surface.n_vertices)
+    end = yield from moved_to_even_sizes(
+        problem.surface,
+        problem.singularities,
+        problem.corners,
+        problem.options.refine,
+        wanted=wanted if wanted is None or wanted.ndim == 1 else np.sqrt(wanted.prod(axis=1)),
     )
     return replace(problem, singularities=end.singularities), end

@@ -243,6 +243,25 @@ class Discretization:
         inside[at_vertex] = np.rint(inside[at_vertex])
         return located.face, inside
 
+    def gradients(self, values: FloatArray, at: Located) -> FloatArray:
+        """Return gradients of functions that are linear in each triangle of the triangulation.
+
+        Parameters
+        ----------
+        values : (c, k, 3) float array
+            Of each function, at the corners of the triangle that each point is in.
+        at : Located
+            The points, as `locate` returns them.
+
+        Returns
+        -------
+        (c, k, 2) float array
+            In the frames of the points' triangles on the surface.
+        """
+        flat = np.einsum("cki,kid->dck", values, self.triangulation.hat_gradients[at.face])
+        gradient = (flat[0] + 1j * flat[1]) * np.exp(-1j * at.turn)
+        return np.stack([gradient.real, gradient.imag], axis=2)
+
     @cached_property
     def vertex_points(self) -> tuple[IntArray, FloatArray]:
         """Triangles and weights on the surface of the vertices of the triangulation."""

@@ -163,11 +163,8 @@ class Holonomy:
             In the frames of the points' triangles. Moving a singularity of index k_j by d
             changes defect i by (pi/2) k_j grad Z_i . d.
         """
-        t, at = self.discretization.triangulation, self.discretization.locate(points)
-        flat = np.einsum("cki,kid->dck", self._corner_values[:, at.face], t.hat_gradients[at.face])
-        gradient = flat[0] + 1j * flat[1]
-        gradient *= np.exp(-1j * at.turn)
-        return np.stack([gradient.real, gradient.imag], axis=2)
+        at = self.discretization.locate(points)
+        return self.discretization.gradients(self._corner_values[:, at.face], at)
 
     def harmonic_correction(self, turns: FloatArray) -> FloatArray:
         """Return what to add to H so that the defects change by given angles, and nothing else.

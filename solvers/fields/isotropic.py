@@ -51,6 +51,8 @@ class IsotropicSolver:
 
     Attributes
     ----------
+    mass : (n,) float array
+        Area of each vertex of the working triangulation.
     gauge : float
         Angle by which all crosses are turned, radians; see `in_gauge`.
 
@@ -96,7 +98,7 @@ class IsotropicSolver:
         matrix = stiffness(self.discretization.triangulation)
         # H is unique up to a constant: the first vertex is pinned, the mean subtracted after.
         self.factorization = factorized(matrix[1:, 1:])
-        self._mass = lumped_mass(self.discretization.triangulation)
+        self.mass = lumped_mass(self.discretization.triangulation)
         self.gauge = 0.0
 
     @cached_property
@@ -162,12 +164,9 @@ class IsotropicSolver:
         require_budget(self.surface, singularities, self.corners)
         faces, weights = self.discretization.place([s.point for s in singularities])
         self._check_places(faces, weights)
-        right = self._right_hand_side(singularities, faces, weights)
+        h, residual = self._certified_log_sizes(singularities, faces, weights)
         d = self.discretization
         t = d.triangulation
-        h = np.zeros(t.n_vertices)
-        h[1:], residual = self.factorization.certified(right[1:])
-        h -= self._mass @ h / self._mass.sum()
         offsets = self._offsets(h, singularities, faces, weights)
         theta = d.walk(offsets) + self.gauge
         if len(d.features) and not self.surface.boundary_loops:
@@ -195,6 +194,31 @@ class IsotropicSolver:
             feature_misalignment=d.feature_misalignment(theta, offsets),
             on_working=None if d.working.unchanged else solved,
         )
+
+    def log_sizes(self, singularities: Iterable[Singularity]) -> FloatArray:
+        """Return H alone, by one back-substitution, also where it is not checked to be a field's.
+
+        Parameters
+        ----------
+        singularities : iterable of Singularity
+            Anywhere on the surface, the index budget met.
+
+        Returns
+        -------
+        (n,) float array
+            At the vertices of the working triangulation, of mean zero.
+        """
+        placed = checked_singularities(singularities)
+        faces, weights = self.discretization.place([s.point for s in placed])
+        return self._certified_log_sizes(placed, faces, weights)[0]
+
+    def _certified_log_sizes(
+        self, singularities: Sequence[Singularity], faces: IntArray, weights: FloatArray
+    ) -> tuple[FloatArray, float]:
+        right = self._right_hand_side(singularities, faces, weights)
+        h = np.zeros(len(right))
+        h[1:], residual = self.factorization.certified(right[1:])
+        return h - self.mass @ h / self.mass.sum(), residual
 
     def cut_graph(self, singularities: Iterable[Singularity]) -> IntArray:
         """Return the cut graph of a configuration (paper, branch cut L).

@@ -214,7 +214,7 @@ def _ends(
     best, room = None, 0.0
     for angle in np.linspace(0, np.pi, DIRECTIONS, endpoint=False):
         half = 0.5 * apart * np.array([np.cos(angle), np.sin(angle)])
-        ends = straightest(surface, point, half), straightest(surface, point, -half)
+        ends = straightest(surface, point, half).end, straightest(surface, point, -half).end
         gaps = np.linalg.norm(surface.positions(ends)[:, None] - obstacles, axis=2)
         nearest = float(gaps.min(initial=np.inf))
         if nearest > room:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from solvers.surface.cutting import cut_graph
 from solvers.surface.delaunay import intrinsic_delaunay
 from solvers.surface.edge_paths import EdgePaths
-from solvers.surface.geodesics import straightest
+from solvers.surface.geodesics import Walk, straightest
 from solvers.surface.homology import HandleLoops, handle_loops
 from solvers.surface.points import SurfacePoint
 from solvers.surface.refinement import LEVELS, Refinement, refine_at, refine_everywhere
@@ -39,6 +39,7 @@ __all__ = [
     "Segments",
     "SurfacePoint",
     "TriSurface",
+    "Walk",
     "WorkingTriangulation",
     "array_problems",
     "barycentric",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 import numpy.typing as npt
 
@@ -11,7 +13,39 @@ from solvers.surface.triangulation import FloatArray
 from solvers.surface.trisurface import TriSurface
 
 
-def straightest(surface: TriSurface, start: SurfacePoint, vector: npt.ArrayLike) -> SurfacePoint:
+@dataclass(frozen=True)
+class Walk:
+    """The end of a straight walk on a surface.
+
+    Parameters
+    ----------
+    end : SurfacePoint
+        In the triangle that the walk came to.
+    turn : float
+        What a vector's angle in the frame of that triangle is larger than in that of the first, if
+        it is carried along the walk, radians.
+
+    Examples
+    --------
+    The first triangle's first axis, carried along:
+
+    >>> import numpy as np
+    >>> from solvers.primitives import square
+    >>> from solvers.surface import SurfacePoint, straightest
+    >>> surface = square(n=2, size=2.0)
+    >>> walk = straightest(surface, SurfacePoint(0, (1.0, 0.0, 0.0)), [1.5, 0.5])
+    >>> along, across = surface.face_frames
+    >>> there = np.array([along[walk.end.face], across[walk.end.face]])
+    >>> cos, sin = np.cos(walk.turn), np.sin(walk.turn)
+    >>> bool(np.allclose([cos, sin] @ there, along[0]))  # in the plane it stays what it is
+    True
+    """
+
+    end: SurfacePoint
+    turn: float
+
+
+def straightest(surface: TriSurface, start: SurfacePoint, vector: npt.ArrayLike) -> Walk:
     """Return where a straight walk on the surface ends.
 
     The walk goes straight on through triangles unfolded into one plane; at the boundary it ends.
@@ -27,8 +61,8 @@ def straightest(surface: TriSurface, start: SurfacePoint, vector: npt.ArrayLike)
 
     Returns
     -------
-    SurfacePoint
-        The end, in the triangle that the walk came to.
+    Walk
+        Where it ends, and how vectors carried along turn.
 
     Raises
     ------
@@ -48,8 +82,8 @@ def straightest(surface: TriSurface, start: SurfacePoint, vector: npt.ArrayLike)
     >>> from solvers.primitives import square
     >>> from solvers.surface import SurfacePoint, straightest
     >>> surface = square(n=2, size=2.0)  # triangle 0 has its first edge along x
-    >>> end = straightest(surface, SurfacePoint(0, (1.0, 0.0, 0.0)), np.array([1.5, 0.5]))
-    >>> surface.position(end).round(6).tolist()
+    >>> walk = straightest(surface, SurfacePoint(0, (1.0, 0.0, 0.0)), np.array([1.5, 0.5]))
+    >>> surface.position(walk.end).round(6).tolist()
     [0.5, -0.5, 0.0]
     """
     surface.require_own([start])
@@ -57,7 +91,7 @@ def straightest(surface: TriSurface, start: SurfacePoint, vector: npt.ArrayLike)
     t = surface.triangulation
     face, weights = start.face, np.array(start.barycentric)
     place, left = weights @ t.corner_positions[face], vector
-    entered = -1
+    entered, turned = -1, 0.0
     for _ in range(4 * t.n_faces):
         corners = t.corner_positions[face]
         sides = corners[[1, 2, 0]] - corners
@@ -72,21 +106,22 @@ def straightest(surface: TriSurface, start: SurfacePoint, vector: npt.ArrayLike)
         side = int(np.argmin(reach))
         step = max(float(reach[side]), 0.0)
         if step >= 1:
-            return _point(surface, face, place + left)
+            return Walk(_point(surface, face, place + left), turned)
         place = place + step * left
         h = 3 * face + side
         g = int(t.twin[h])
         if g < 0:
-            return _point(surface, face, place)
+            return Walk(_point(surface, face, place), turned)
         left = (1 - step) * left
         along = np.linalg.norm(place - corners[side]) / np.linalg.norm(sides[side])
-        angle = t.transport[h]
+        angle = float(t.transport[h])
+        turned += angle
         turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
         left = turn @ left
         face, entered = g // 3, g % 3
         there = t.corner_positions[face]
         place = there[(entered + 1) % 3] + along * (there[entered] - there[(entered + 1) % 3])
-    return _point(surface, face, place)
+    return Walk(_point(surface, face, place), turned)
 
 
 def _point(surface: TriSurface, face: int, place: FloatArray) -> SurfacePoint:

@@ -5,15 +5,21 @@ from __future__ import annotations
 from solvers.validity.attempts import PlaceAnew, ValidityError, make_valid
 from solvers.validity.completion import MOST_PLACED, missing_singularities
 from solvers.validity.guide import Guide, LevelLines
+from solvers.validity.improvement import Improved, improve
 from solvers.validity.search import Moved
+from solvers.validity.unevenness import Sizes, Unevenness
 
 __all__ = [
     "MOST_PLACED",
     "Guide",
+    "Improved",
     "LevelLines",
     "Moved",
     "PlaceAnew",
+    "Sizes",
+    "Unevenness",
     "ValidityError",
+    "improve",
     "make_valid",
     "missing_singularities",
 ]

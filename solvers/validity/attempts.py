@@ -27,7 +27,8 @@ from solvers.singularities.topology import existence
 from solvers.surface.refinement import LEVELS
 from solvers.surface.triangulation import QUARTER, FloatArray
 from solvers.surface.trisurface import TriSurface
-from solvers.validity.search import Blocked, Moved, Obstacle, Search
+from solvers.validity.constrained_moves import Blocked, Obstacle
+from solvers.validity.search import Moved, Search
 
 NEAREST = 16
 """How many layouts are tried before something else is proposed. Chosen."""

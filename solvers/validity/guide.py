@@ -162,7 +162,7 @@ class Guide:
             steepness = float(slope @ slope)
             if steepness * surface.area < EXACT:  # flat: no direction is better than another
                 break
-            point = straightest(surface, point, -defect * slope / steepness)
+            point = straightest(surface, point, -defect * slope / steepness).end
         return point
 
     def _numbered(self, condition: int) -> int:

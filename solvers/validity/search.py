@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from enum import Enum
 
 import numpy as np
 
@@ -12,41 +11,26 @@ from solvers.fields.holonomy import Holonomy
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.progress import Progress
 from solvers.singularities.budget import Singularity
-from solvers.singularities.spacing import Spacing
-from solvers.surface.geodesics import straightest
 from solvers.surface.refinement import Refinement, refine_at
 from solvers.surface.triangulation import QUARTER, FloatArray, wrap
 from solvers.surface.trisurface import TriSurface
+from solvers.validity.constrained_moves import (
+    LEAST_HOLD,
+    LONGEST_STEP,
+    Blocked,
+    ConstrainedMoves,
+    Obstacle,
+    least_moves,
+)
 
 TOLERANCE = np.radians(1e-6)
 """Defect that counts as none, radians. Chosen, above rounding and below what a mesh can tell."""
-
-LONGEST_STEP = 0.1
-"""Longest move of a singularity in one step, in square roots of the surface's area. Chosen."""
-
-HALVINGS, CONTACTS = 7, 4
-"""How often a step is halved, and how often bent around what it would come too near to. Chosen."""
 
 NEAR = np.radians(1e-3)
 """Defect, radians, below which the refined surface's own operator takes over. Chosen."""
 
 NUDGE = 0.1
 """How far singularities are nudged, in shortest edges of their triangles. Chosen."""
-
-LEAST_HOLD = 1e-6
-"""Change of a defect, radians, by a move of the square root of the area: less is no hold on it.
-
-Chosen.
-"""
-
-
-class Obstacle(Enum):
-    """What ends the way to an aim; the value says it in plain words."""
-
-    TOO_FEW = "too few singularities may move, or only some far away"
-    CROWDED = "singularities would come too near to each other or to the boundary"
-    STALLED = "no small move brings them nearer"
-    UNSETTLED = "the surface is too coarse for its defects to be told"
 
 
 @dataclass(frozen=True)
@@ -91,28 +75,11 @@ class Moved(Progress):
     aim: str = ""
 
 
-class Blocked(Exception):
-    """The way to the aim ends.
-
-    Parameters
-    ----------
-    why : Obstacle
-    remaining : (c,) float array
-        What is left of the defects, radians.
-    """
-
-    def __init__(self, why: Obstacle, remaining: FloatArray) -> None:
-        super().__init__(why.value)
-        self.why = why
-        self.remaining = remaining
-
-
 class Search:
     """Newton steps on one surface from one configuration.
 
-    Moving singularity j by d_j changes defect i by (pi/2) k_j grad Z_i(x_j) . d_j; of the moves
-    that take all defects to their aims the least is taken. Where some would come too near to each
-    other or to the boundary, their least distance becomes one more equation of the step.
+    Of the moves that take all defects to their aims the least is taken. Where some would come too
+    near to each other or to the boundary, their least distance becomes one more equation.
 
     Parameters
     ----------
@@ -129,11 +96,7 @@ class Search:
     ) -> None:
         self._surface = surface
         self._guide = guide
-        self._unit = float(np.sqrt(surface.area))
-        self._index = np.array([s.index for s in singularities], dtype=np.float64)
-        self._free = np.array([not s.locked for s in singularities], dtype=bool)
-        self._free &= self._index != 0
-        self._spacing = Spacing(surface, singularities, self._free)
+        self._moves = ConstrainedMoves(surface, guide, singularities)
 
     def approach(
         self, singularities: tuple[Singularity, ...], turns: tuple[int, ...], limit: int = 60
@@ -265,9 +228,9 @@ class Search:
         matrix = self._matrix(gradients, defects)
         edge = self._surface.triangulation.lengths[[s.point.face for s in singularities]].min(1)
         step = NUDGE * edge[:, None] * chance.normal(size=(len(singularities), 2))
-        step -= _least(matrix, matrix @ step.reshape(-1))
-        moved = self._moved(singularities, step)
-        return singularities if len(self._spacing.too_near(moved)) else moved
+        step -= least_moves(matrix, matrix @ step.reshape(-1))
+        moved = self._moves.moved(singularities, step).singularities
+        return singularities if len(self._moves.spacing.too_near(moved)) else moved
 
     def _advance(
         self,
@@ -278,47 +241,24 @@ class Search:
     ) -> tuple[Singularity, ...]:
         """Take the least step, cut until it is accepted, bent so that distances are kept."""
         matrix = self._matrix(gradients, remaining)
-        longest = np.linalg.norm(_least(matrix, -remaining), axis=1).max()
-        reach = LONGEST_STEP * self._unit
-        share, why = min(1.0, reach / max(float(longest), 1e-300)), Obstacle.STALLED
-        for _ in range(HALVINGS):
-            rows, gaps = self._spacing.none
-            for _ in range(CONTACTS):
-                both = np.concatenate([matrix, rows])
-                step = _least(both, np.concatenate([-share * remaining, gaps]))
-                if np.linalg.norm(step, axis=1).max() > 2 * reach:
-                    break
-                moved = self._moved(singularities, step)
-                near = self._spacing.too_near(moved)
-                if not len(near) and accepted(moved):
-                    return moved
-                if not len(near):
-                    break
-                why = Obstacle.CROWDED
-                more = self._spacing.equations(singularities, near)
-                rows, gaps = np.concatenate([rows, more[0]]), np.concatenate([gaps, more[1]])
-            share /= 2
-        raise Blocked(why, remaining)
+        longest = np.linalg.norm(least_moves(matrix, -remaining), axis=1).max()
+        share = min(1.0, LONGEST_STEP * self._moves.unit / max(float(longest), 1e-300))
+
+        def propose(rows: FloatArray, gaps: FloatArray, part: float) -> FloatArray:
+            both = np.concatenate([matrix, rows])
+            return least_moves(both, np.concatenate([-part * remaining, gaps]))
+
+        found = self._moves.advance(
+            singularities, propose, lambda step: accepted(step.singularities), share
+        )
+        if isinstance(found, Obstacle):
+            raise Blocked(found, remaining)
+        return found.singularities
 
     def _matrix(self, gradients: FloatArray, remaining: FloatArray) -> FloatArray:
-        """Return (c, 2 k): how the defects change with moves in the triangles' frames."""
-        weight = QUARTER * self._index * self._free
-        matrix = np.asarray((gradients * weight[:, None]).reshape(len(remaining), -1))
+        """Return (c, 2 k) how the defects change with moves, if those have a hold on them."""
+        matrix = self._moves.by_moves(gradients)
         scale = np.linalg.svd(matrix, compute_uv=False)
-        if matrix.shape[1] < len(remaining) or scale[-1] * self._unit < LEAST_HOLD:
+        if matrix.shape[1] < len(remaining) or scale[-1] * self._moves.unit < LEAST_HOLD:
             raise Blocked(Obstacle.TOO_FEW, remaining)
         return matrix
-
-    def _moved(
-        self, singularities: tuple[Singularity, ...], step: FloatArray
-    ) -> tuple[Singularity, ...]:
-        return tuple(
-            replace(s, point=straightest(self._surface, s.point, d)) if free else s
-            for s, d, free in zip(singularities, step, self._free, strict=True)
-        )
-
-
-def _least(matrix: FloatArray, right: FloatArray) -> FloatArray:
-    """Return the least moves (k, 2) that solve the equations as well as can be."""
-    moves = np.linalg.lstsq(matrix, right, rcond=1e-9)[0]
-    return np.asarray(moves.reshape(-1, 2))

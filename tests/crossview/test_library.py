@@ -140,6 +140,7 @@ WANTED: dict[str, tuple[str, str, Callable[[Any, Path], object]]] = {
     "natural": ("a problem", "crossview.read", lambda v, _: crossview.natural(v)),
     "complete": ("a problem", "crossview.read", lambda v, _: crossview.complete(v)),
     "make_valid": ("a problem", "crossview.read", lambda v, _: crossview.make_valid(v)),
+    "improve": ("a problem", "crossview.read", lambda v, _: crossview.improve(v)),
     "solve": ("a problem", "crossview.read", lambda v, _: crossview.solve(v)),
     "write_case": ("a problem", "crossview.read", lambda v, to: crossview.write_case(v, to)),
     "layout": ("a solution", "crossview.solve", lambda v, _: crossview.layout(v)),

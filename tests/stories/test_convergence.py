@@ -13,6 +13,8 @@ from crossview.cases.gallery import path_of
 from crossview.cases.model import Builtin, Case, Options, PlacedCorner
 from crossview.session.state import SessionState
 from crossview.view.colors import BAD, GOOD, UNSURE, WAITING, valence_color
+from solvers.fields import IsotropicSolver
+from solvers.validity import Unevenness
 from tests.windowing import Hand
 
 Cases = Callable[[str], str]
@@ -163,6 +165,59 @@ def test_an_edit_is_solved_by_the_chosen_method_on_release(
     assert hand.state.field.method == "anisotropic"
     assert hand.state.field.energy < 1e-10
     assert hand.shows(valence_color(3), end)
+
+
+def test_improve_shows_its_way_and_is_one_step(hand: Hand, isotropic_case: Cases) -> None:
+    hand.open(isotropic_case("annulus-near"))
+    panel = hand.window.validity_panel
+    before = hand.state.document
+    on_the_way = []
+    hand.window.session.observers.append(
+        lambda old, new: on_the_way.append(new.singularities) if new.moving is not None else None
+    )
+    panel.improve.click()
+    hand.wait(lambda: hand.state.solved and hand.state.document is not before)
+    assert len(set(on_the_way)) > 3
+    assert hand.state.undo_name == "improve sizes"
+    assert hand.state.message.text.startswith("Sizes are more even: variance of H ")
+    unevenness = Unevenness(IsotropicSolver(before.surface))
+    sizes = [unevenness.sizes(d.singularities).variance for d in (before, hand.state.document)]
+    assert sizes[1] < sizes[0]
+    assert panel.rows[0].color == GOOD
+    hand.trigger("undo")
+    hand.wait(lambda: hand.state.solved)
+    assert hand.state.document is before
+
+
+def test_improve_stopped_keeps_what_it_has_reached(hand: Hand, isotropic_case: Cases) -> None:
+    hand.open(isotropic_case("annulus-near"))
+    before = hand.state.document
+    seen = []
+
+    def stop_on_the_way(old: SessionState, new: SessionState) -> None:
+        if new.moving is not None and new.progress.stage == "improving":
+            seen.append(new.singularities)
+            if len(set(seen)) == 3:
+                hand.window.session.observers.remove(stop_on_the_way)
+                hand.trigger("stop")
+
+    hand.window.session.observers.append(stop_on_the_way)
+    hand.trigger("improve")
+    hand.wait(lambda: hand.state.solved and hand.state.document is not before)
+    # what the background has reached, perhaps a step beyond what was shown
+    unevenness = Unevenness(IsotropicSolver(before.surface))
+    shown, kept = (unevenness.sizes(x).variance for x in (seen[-1], hand.state.singularities))
+    assert kept <= shown
+    assert hand.state.undo_name == "improve sizes"
+    assert np.abs(hand.state.solution.holonomy_defects).max() < np.radians(0.5)
+
+
+def test_improve_needs_something_that_may_move(hand: Hand, isotropic_case: Cases) -> None:
+    hand.open(isotropic_case("annulus-near"))
+    for i in range(8):
+        assert hand.window.validity_panel.improve.isEnabled()
+        hand.window.session.edits.toggle_lock(i)
+    assert not hand.window.validity_panel.improve.isEnabled()
 
 
 def test_make_valid_and_undo(hand: Hand, isotropic_case: Cases) -> None:

@@ -101,11 +101,15 @@ class ValidityPanel(QWidget):
     """Says whether the configuration is valid, by how much not, and what would mend it."""
 
     def __init__(
-        self, session: Session, make_valid: QAction, parent: QWidget | None = None
+        self,
+        session: Session,
+        make_valid: QAction,
+        improve: QAction,
+        parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
         self._session = session
-        self.make_valid = _button(make_valid)
+        self.make_valid, self.improve = _button(make_valid), _button(improve)
         self.budget, self.existence = VerdictRow(), VerdictRow()
         font = self.budget.text.font()
         font.setBold(True)
@@ -151,6 +155,7 @@ class ValidityPanel(QWidget):
         bottom = QHBoxLayout()
         bottom.setContentsMargins(30, 4, 8, 4)
         bottom.addWidget(self.make_valid)
+        bottom.addWidget(self.improve)
         layout.addLayout(bottom)
         self.show_state(None, session.state)
 

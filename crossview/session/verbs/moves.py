@@ -5,12 +5,22 @@ from __future__ import annotations
 from collections.abc import Callable, Generator
 from dataclasses import replace
 from functools import partial
+from typing import TypeVar
 
-from crossview.session.commands import Command
+from crossview.session.commands import Command, ReplaceSingularities
 from crossview.session.message import Message
 from crossview.session.verbs.group import VerbGroup
-from crossview.session.waypoints import move_to_validity, place_natural
-from solvers.progress import Progress
+from crossview.session.waypoints import (
+    IMPROVE,
+    Waypoint,
+    even_sizes_out,
+    move_to_validity,
+    place_natural,
+)
+from solvers.progress import Progress, relayed
+from solvers.validity import Improved
+
+T = TypeVar("T")
 
 
 class Moves(VerbGroup):
@@ -21,7 +31,44 @@ class Moves(VerbGroup):
         state = self._state
         if state.document is None:
             return
-        self._run(partial(move_to_validity, state.document, state.base))
+        self._run(
+            partial(move_to_validity, state.document, state.base), self._do, self._say_unchanged
+        )
+
+    def improve(self) -> None:
+        """Move the unlocked singularities to where sizes are most even; stopped, where they are."""
+        state = self._state
+        if state.document is None:
+            return
+
+        def done(found: tuple[Command, Improved]) -> None:
+            command, end = found
+            if end.singularities == end.start:
+                self._solving.restore()
+                text = "Sizes are as even as these singularities let them be"
+            else:
+                self._do(command)
+                text = (
+                    f"Sizes are more even: variance of H {end.before.variance:.3g} before, "
+                    f"{end.sizes.variance:.3g} now"
+                )
+            self._store.update(self._state.said(Message(text, "edit", "info")))
+
+        passed: list[Waypoint] = []
+
+        def keep(step: Progress) -> Progress:
+            if isinstance(step, Waypoint):
+                passed.append(step)
+            return step
+
+        def stopped() -> None:
+            if passed:
+                self._do(ReplaceSingularities(passed[-1].singularities, IMPROVE))
+            else:
+                self._say_unchanged()
+
+        way = partial(even_sizes_out, state.document, state.base)
+        self._run(lambda: relayed(way(), keep), done, stopped)
 
     def place_natural(self, method: str) -> None:
         """Replace the singularities by those of a smooth cross-field."""
@@ -33,7 +80,7 @@ class Moves(VerbGroup):
             place = partial(
                 place_natural, state.document, method, alignment, fewest=state.fewest_natural
             )
-            self._run(place)
+            self._run(place, self._do, self._say_unchanged)
 
     def toggle_along_curvature(self) -> None:
         """Draw the crosses of natural singularities towards the directions of curvature, or not."""
@@ -44,16 +91,21 @@ class Moves(VerbGroup):
         fewest = not self._state.fewest_natural
         self._store.update(replace(self._state, fewest_natural=fewest))
 
-    def _run(self, job: Callable[[], Generator[Progress, None, Command]]) -> None:
+    def _run(
+        self,
+        job: Callable[[], Generator[Progress, None, T]],
+        done: Callable[[T], None],
+        stopped: Callable[[], None],
+    ) -> None:
         def failed(error: Exception) -> None:
             self._solving.restore()
             self._store.fail(error, "edit")
 
-        def stopped() -> None:
-            self._solving.restore()
-            text = "Stopped; nothing was changed"
-            message = Message(text, "edit", "info", stopped=True)
-            self._store.update(self._state.said(message))
-
         self._store.update(self._state.unsaid("edit"))
-        self._solving.run(job, self._do, failed, stopped)
+        self._solving.run(job, done, failed, stopped)
+
+    def _say_unchanged(self) -> None:
+        self._solving.restore()
+        text = "Stopped; nothing was changed"
+        message = Message(text, "edit", "info", stopped=True)
+        self._store.update(self._state.said(message))

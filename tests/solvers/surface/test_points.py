@@ -92,7 +92,7 @@ def test_every_point_that_a_surface_makes_is_its_own() -> None:
     made = [
         COARSE.point_at_vertex(3),
         COARSE.point(3, [0.2, 0.3, 0.5]),
-        straightest(COARSE, ON_COARSE, np.array([0.4, 0.2])),
+        straightest(COARSE, ON_COARSE, np.array([0.4, 0.2])).end,
         *(s.point for s in pair_at(COARSE, [], ON_COARSE)),
     ]
     COARSE.require_own(made)
