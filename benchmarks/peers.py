@@ -28,7 +28,8 @@ from crossview.workflow.problem import Problem
 from crossview.workflow.quads import MeshOptions, quads_of
 from solvers.primitives import BUILTIN
 from solvers.progress import run
-from solvers.quads.quadmesh import scaled_jacobian
+from solvers.quads.corners import TangentPlanes, scaled_jacobian
+from solvers.quads.projection import Projection
 from solvers.singularities.budget import Singularity
 from solvers.singularities.farthest import far_points
 from solvers.surface.trisurface import TriSurface
@@ -132,7 +133,7 @@ def theirs(peer: str, surface: TriSurface) -> Made | str:
 
 def row(surface: TriSurface, made: Made) -> list[str]:
     """The cells of the table about a mesh."""
-    quality = scaled_jacobian(made.vertices[made.quads], _outward(made))
+    quality = scaled_jacobian(made.vertices[made.quads], _normals(surface, made))
     return [
         f"{len(made.quads)}",
         f"{len(made.triangles)}",
@@ -145,13 +146,10 @@ def row(surface: TriSurface, made: Made) -> list[str]:
     ]
 
 
-def _outward(made: Made) -> np.ndarray:
-    """Normals (q, 3) of what is around each quad: one that is inverted disagrees with them."""
-    corners = made.vertices[made.quads]
-    own = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
-    normals = np.zeros_like(made.vertices)
-    np.add.at(normals, made.quads, own[:, None])
-    return np.asarray(normals[made.quads].sum(axis=1))
+def _normals(surface: TriSurface, made: Made) -> np.ndarray:
+    """The surface's normals (q, 4, 3) at the corners of quads."""
+    faces, weights = Projection(surface).nearest(made.vertices)
+    return TangentPlanes(surface).corner_normals(faces, weights, made.vertices, made.quads)
 
 
 def _boundary(surface: TriSurface, made: Made) -> str:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from solvers.quads.corners import scaled_jacobian
 from solvers.quads.filling import fill
-from solvers.quads.quadmesh import QuadMesh, scaled_jacobian
+from solvers.quads.quadmesh import QuadMesh
 from solvers.quads.quantization import MOST_QUADS, Quantization, quantize, quantize_to
 from solvers.quads.smoothing import smooth
 

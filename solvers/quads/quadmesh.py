@@ -11,14 +11,10 @@ from scipy.sparse.csgraph import connected_components
 
 from solvers.errors import CrossviewError
 from solvers.frozen import freeze_arrays
+from solvers.quads.corners import TangentPlanes, scaled_jacobian
 from solvers.quads.projection import Projection
 from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface
-
-ON_EDGE = 1e-9
-"""Weight of a corner, from 0 to 1, below which a place is on the edge across. Chosen, well above
-rounding.
-"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,9 +118,13 @@ class QuadMesh:
 
     @cached_property
     def scaled_jacobian(self) -> FloatArray:
-        """(q,) smallest sine of a quad's corners about its mean normal; 1 for rectangles."""
-        outward = normals_at(self.surface, self.faces, self.barycentric)[self.quads].sum(axis=1)
-        return scaled_jacobian(self.vertices[self.quads], outward)
+        """(q,) least sine of a quad's corners, in the surface's tangent planes; 1 for rectangles.
+
+        0 or less where a corner has 180 degrees or more there, or a side no length.
+        """
+        planes = TangentPlanes(self.surface)
+        normals = planes.corner_normals(self.faces, self.barycentric, self.vertices, self.quads)
+        return scaled_jacobian(self.vertices[self.quads], normals)
 
     @cached_property
     def max_distance_to_surface(self) -> float:
@@ -225,62 +225,6 @@ class QuadMesh:
             shape=(len(ends), len(ends)),
         )
         return int(connected_components(graph, directed=False)[0])
-
-
-def normals_at(surface: TriSurface, faces: IntArray, weights: FloatArray) -> FloatArray:
-    """Return the (..., 3) normals at places on a surface.
-
-    Those of the triangles (...,) where the weights (..., 3) are inside; on edges, where either of
-    two triangles may be named, those interpolated: across a sharp edge the other may look away.
-    """
-    normals = surface.face_normals[faces]
-    on_edge = weights.min(axis=-1) < ON_EDGE
-    ends = surface.vertex_normals[surface.faces[faces[on_edge]]]
-    normals[on_edge] = (weights[on_edge][:, :, None] * ends).sum(axis=1)
-    return normals
-
-
-def scaled_jacobian(corners: FloatArray, outward: FloatArray) -> FloatArray:
-    """Return the quality of quads: the smallest sine of their corners about their mean normals.
-
-    Parameters
-    ----------
-    corners : (..., 4, 3) float array
-        Counter-clockwise seen from outside.
-    outward : (..., 3) float array
-        Vectors, of any length, that point to the outside.
-
-    Returns
-    -------
-    (...) float array
-        1 for a rectangle, 0 or less for a quad that is folded, inverted or has a side without
-        length.
-
-    Notes
-    -----
-    The verdict of Knupp 2000 on each corner, with the normal that the quad's diagonals span.
-
-    Examples
-    --------
-    A rhombus with angles of 60 and 120 degrees, seen from above and from below:
-
-    >>> import numpy as np
-    >>> from solvers.quads import scaled_jacobian
-    >>> height = np.sqrt(3) / 2
-    >>> rhombus = np.array([[0, 0, 0], [1, 0, 0], [1.5, height, 0], [0.5, height, 0]])
-    >>> for outward in (1.0, -1.0):
-    ...     print(round(float(scaled_jacobian(rhombus, np.array([0, 0, outward]))), 6))
-    0.866025
-    -0.866025
-    """
-    ahead = np.roll(corners, -1, axis=-2) - corners
-    ahead /= np.maximum(np.linalg.norm(ahead, axis=-1), 1e-300)[..., None]
-    normal = np.cross(
-        corners[..., 2, :] - corners[..., 0, :], corners[..., 3, :] - corners[..., 1, :]
-    )
-    normal /= np.maximum(np.linalg.norm(normal, axis=-1), 1e-300)[..., None]
-    sines = (np.cross(np.roll(ahead, 1, axis=-2), ahead) @ normal[..., None])[..., 0].min(axis=-1)
-    return np.asarray(np.where((normal * outward).sum(axis=-1) < 0, -np.abs(sines), sines))
 
 
 def _counts(valence: IntArray, regular: int) -> dict[int, int]:

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from solvers.quads.corners import TangentPlanes, scaled_jacobian
 from solvers.quads.projection import Projection
-from solvers.quads.quadmesh import QuadMesh, normals_at, scaled_jacobian
+from solvers.quads.quadmesh import QuadMesh
 from solvers.quads.rails import Rail
 from solvers.surface.triangulation import FloatArray, IntArray
 
@@ -16,6 +17,9 @@ REACH = 0.4
 
 Less than a half, so that two neighbours never pass each other.
 """
+
+SAME_PLACE = 1e-9
+"""Distance, in diagonals of the surface, that counts as none. Chosen, above rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,11 +66,18 @@ class Sliding:
         Chains of edges of its surface.
     rail : (n,) int array
         The rail each vertex is on, or -1.
+
+    Attributes
+    ----------
+    near : float
+        Distance that counts as none.
     """
 
     def __init__(self, mesh: QuadMesh, rails: list[Rail], rail: IntArray) -> None:
         self.mesh, self.rails, self.rail = mesh, rails, rail
+        self.near = SAME_PLACE * mesh.surface.diagonal
         self._projection = Projection(mesh.surface)
+        self._planes = TangentPlanes(mesh.surface)
 
     def start(self) -> Places:
         """Return where the vertices of the mesh are."""
@@ -79,8 +90,11 @@ class Sliding:
 
     def quality(self, places: Places, quads: IntArray) -> FloatArray:
         """Return the scaled Jacobians of quads (..., 4) given by their vertices."""
-        normals = normals_at(self.mesh.surface, places.faces, places.weights)
-        return scaled_jacobian(places.vertices[quads], normals[quads].sum(axis=-2))
+        return scaled_jacobian(places.vertices[quads], self.normals(places, quads))
+
+    def normals(self, places: Places, quads: IntArray) -> FloatArray:
+        """Return the surface's normals (..., 4, 3) at the corners of quads (..., 4)."""
+        return self._planes.corner_normals(places.faces, places.weights, places.vertices, quads)
 
     def snapped(self, places: Places) -> tuple[Places, IntArray]:
         """Put the nearest vertex of a rail on each of its corners that has none.
@@ -93,15 +107,20 @@ class Sliding:
             Those vertices.
         """
         held: list[int] = []
-        s = places.s.copy()
+        s, vertices = places.s.copy(), places.vertices
+        taken = vertices[self.mesh.fixed]
         for i, rail in enumerate(self.rails):
             on = np.flatnonzero(self.rail == i)
             for corner in rail.corners if len(on) else ():
+                place = rail.positions(np.array([corner]))
+                if (np.linalg.norm(taken - place, axis=1) < self.near).any():
+                    continue
                 gap = rail.apart(s[on], corner)
                 k = on[np.argmin(np.abs(gap))]
                 if not self.mesh.fixed[k] and k not in held:
                     s[k] = corner
                     held.append(int(k))
+                    taken = np.concatenate([taken, place])
         ids = np.array(held, dtype=np.int64)
         return places.put(ids, self._on_rails(ids, s[ids])), ids
 
@@ -136,6 +155,43 @@ class Sliding:
         step = ((targets[at] - vertices[at]) * tangent).sum(axis=1)
         step = np.clip(step, -REACH * behind[who], REACH * ahead[who])
         return made.put(at, self._on_rails(who, s[at] + step))
+
+    def held_back(
+        self, places: Places, moved: Places, quality: FloatArray, floor: FloatArray
+    ) -> tuple[Places, FloatArray]:
+        """Return moved places, those before for vertices of quads that are spoilt.
+
+        Parameters
+        ----------
+        places : Places
+            Of all vertices, before.
+        moved : Places
+            Of all vertices, after.
+        quality : (q,) float array
+            Scaled Jacobians of the quads before.
+        floor : (q,) float array
+            What none may fall below, or else not below what it was.
+
+        Returns
+        -------
+        places : Places
+        quality : (q,) float array
+            Scaled Jacobians of the quads there.
+        """
+        quads = self.mesh.quads
+        floor = np.minimum(floor, quality)
+        found = self.quality(moved, quads)
+        back = np.zeros(len(places.s), dtype=bool)
+        while (found < floor).any():
+            back[quads[found < floor]] = True
+            ids = np.flatnonzero(back)
+            moved = moved.put(ids, places.at(ids))
+            touched = back[quads].any(axis=1)
+            whole = back[quads].all(axis=1)
+            found[whole] = quality[whole]
+            some = np.flatnonzero(touched & ~whole)
+            found[some] = self.quality(moved, quads[some])
+        return moved, found
 
     def _on_rails(self, ids: IntArray, s: FloatArray) -> Places:
         """Return the places of vertices at lengths s along their rails."""

@@ -3,8 +3,8 @@
 Local step: each quad asks its corners to be those of the nearest rectangle whose sides are its own
 mean sides, drawn somewhat towards those it had at first, so that sizes and aspects stay. Global
 step: each vertex takes the mean of what its quads ask for, small quads counting as much as large
-ones, and is put back on the surface or on its rail. Where a quad would become worse than the worst
-before, its vertices stay.
+ones, and is put back on the surface or on its rail. Each quad has a floor, what it was at first or
+a good value; where one would fall below, its vertices stay.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ import numpy as np
 
 from solvers.kind_checks import one_of_kind
 from solvers.number_checks import whole_number
-from solvers.quads.quadmesh import QuadMesh, normals_at
+from solvers.quads.quadmesh import QuadMesh
 from solvers.quads.rails import Rail, boundary_rails
-from solvers.quads.sliding import Places, Sliding
+from solvers.quads.sliding import SAME_PLACE, Places, Sliding
 from solvers.quads.untangling import POOR, improve_worst
 from solvers.surface.triangulation import FloatArray, IntArray
 
@@ -40,14 +40,8 @@ WORST = 0.1
 PATIENCE, LITTLE = 5, 1e-4
 """Rounds that each gain less than so little quality, after which no more are tried. Chosen."""
 
-ON_RAIL = 1e-9
-"""Distance from a rail, in diagonals of the surface, that counts as none.
-
-Chosen, above rounding.
-"""
-
-RETREATS = 10
-"""How often vertices around spoilt quads are put back before a round is given up. Chosen."""
+GOOD = 0.5
+"""Scaled Jacobian that a quad may fall to for the sake of others. Chosen: angles of 30 degrees."""
 
 
 def smooth(
@@ -56,11 +50,12 @@ def smooth(
     curves: Sequence[IntArray] = (),
     rounds: int = ROUNDS,
 ) -> QuadMesh:
-    """Return a mesh with quads more like rectangles, none worse than the worst before.
+    """Return a mesh with quads more like rectangles, none worse than before and than `GOOD`.
 
+    So no more quads are inverted, and the least scaled Jacobian is no lower, unless it was good.
     Vertices stay on the surface, those of a boundary or a curve on it, fixed ones where they are.
-    The nearest vertex is put on each sharp turn of a boundary or a curve, if no quad becomes
-    worse for it than the worst before and than `POOR`.
+    The nearest vertex is put on each sharp turn of a boundary or a curve that has none, if that
+    spoils no quad.
 
     Parameters
     ----------
@@ -118,29 +113,48 @@ def smooth(
         rail[on] = np.where(rail[on] >= 0, rail[on], len(rails) - 1)
     sliding = Sliding(replace(mesh, fixed=held), rails, rail)
     start = sliding.start()
-    least = float(mesh.scaled_jacobian.min(initial=POOR))
+    quality = sliding.quality(start, mesh.quads)
+    floor = np.minimum(quality, GOOD)
+    found = _kept_above(floor, sliding, start, rounds)
+    if (sliding.quality(found, mesh.quads) <= 0).any():
+        # Some unfold only if they may fold further on the way.
+        loose = np.where(quality > 0, floor, -1.0)
+        tried = _kept_above(loose, sliding, start, rounds)
+        found = max(found, tried, key=lambda places: _worth(sliding.quality(places, mesh.quads)))
+    return replace(mesh, vertices=found.vertices, faces=found.faces, barycentric=found.weights)
+
+
+def _worth(quality: FloatArray) -> tuple[int, float]:
+    """Return what to compare meshes by: how few quads are inverted, then the least quality."""
+    return -int((quality <= 0).sum()), float(quality.min())
+
+
+def _kept_above(floor: FloatArray, sliding: Sliding, start: Places, rounds: int) -> Places:
+    """Return better places, vertices on as many sharp turns of rails as leave all above a floor."""
+    quads = sliding.mesh.quads
     snapped, on_corners = sliding.snapped(start)
     while True:
-        found = _smoothed(sliding, snapped, on_corners, rounds)
-        spoilt = mesh.quads[sliding.quality(found, mesh.quads) < least]
+        found = _smoothed(sliding, snapped, on_corners, floor, rounds)
+        spoilt = quads[sliding.quality(found, quads) < floor]
         if len(on_corners) == 0 or len(spoilt) == 0:
-            break
+            return found
         # Let go of the corners that cost too much; if it is not they, of all.
         guilty = np.isin(on_corners, spoilt)
         on_corners = on_corners[~guilty] if guilty.any() else on_corners[:0]
         snapped = start.put(on_corners, snapped.at(on_corners))
-    return replace(mesh, vertices=found.vertices, faces=found.faces, barycentric=found.weights)
 
 
 def _run_along(mesh: QuadMesh, rail: Rail) -> IntArray:
     """Return the vertices of the edges of a mesh that lie on a rail."""
     gap = np.linalg.norm(rail.positions(rail.nearest(mesh.vertices)) - mesh.vertices, axis=1)
-    near = gap < ON_RAIL * mesh.surface.diagonal
+    near = gap < SAME_PLACE * mesh.surface.diagonal
     return np.unique(mesh.edges[near[mesh.edges].all(axis=1)])
 
 
-def _smoothed(sliding: Sliding, places: Places, held: IntArray, rounds: int) -> Places:
-    """Return better places, with the vertices `held` where they are."""
+def _smoothed(
+    sliding: Sliding, places: Places, held: IntArray, floor: FloatArray, rounds: int
+) -> Places:
+    """Return better places, with the vertices `held` where they are and quads above the floor."""
     mesh = sliding.mesh
     fixed = mesh.fixed.copy()
     fixed[held] = True
@@ -148,21 +162,26 @@ def _smoothed(sliding: Sliding, places: Places, held: IntArray, rounds: int) -> 
     sides = np.linalg.norm(_mean_sides(mesh.vertices[mesh.quads]), axis=2)
     sides = np.maximum(sides, 1e-9 * sides.max(initial=1e-300))
     for _ in range(STAGES):
-        places = _rounds(sliding, places, free, sides, rounds)
+        places = _rounds(sliding, places, free, floor, sides, rounds)
         if sliding.quality(places, mesh.quads).min(initial=1.0) >= POOR:
             break
-        places = improve_worst(sliding, places, free)
+        places = improve_worst(sliding, places, free, floor)
     return places
 
 
 def _rounds(
-    sliding: Sliding, places: Places, free: IntArray, sides: FloatArray, rounds: int
+    sliding: Sliding,
+    places: Places,
+    free: IntArray,
+    floor: FloatArray,
+    sides: FloatArray,
+    rounds: int,
 ) -> Places:
     """Return the best places of many rounds, which end when they lead to nothing better."""
     quality = sliding.quality(places, sliding.mesh.quads)
     best, best_score, since = places, _score(quality), 0
     for _ in range(rounds):
-        places, quality = _round(sliding, places, quality, free, sides)
+        places, quality = _round(sliding, places, quality, free, floor, sides)
         score = _score(quality)
         since = 0 if score > best_score + LITTLE else since + 1
         if score > best_score:
@@ -177,25 +196,23 @@ def _score(quality: FloatArray) -> float:
 
 
 def _round(
-    sliding: Sliding, places: Places, quality: FloatArray, free: IntArray, sides: FloatArray
+    sliding: Sliding,
+    places: Places,
+    quality: FloatArray,
+    free: IntArray,
+    floor: FloatArray,
+    sides: FloatArray,
 ) -> tuple[Places, FloatArray]:
-    """Return places and qualities after two steps that leave no quad below the worst before."""
+    """Return places and qualities after two steps that leave no quad below its floor."""
     mesh, quads = sliding.mesh, sliding.mesh.quads
-    outward = normals_at(mesh.surface, places.faces, places.weights)[quads].sum(axis=1)
+    outward = sliding.normals(places, quads).sum(axis=1)
     asked = rectangles(places.vertices[quads], outward, sides).reshape(-1, 3)
     weight = np.repeat(1 / sides.prod(axis=0), 4)
     total = [np.bincount(quads.reshape(-1), weight * x, mesh.n_vertices) for x in asked.T]
     weights = np.bincount(quads.reshape(-1), weight, mesh.n_vertices)
     means = np.stack(total, axis=1) / weights[:, None]
     moved = places.put(free, sliding.moved(places, free, means[free]))
-    least = quality.min(initial=1.0)
-    for _ in range(RETREATS):
-        found = sliding.quality(moved, quads)
-        if found.min(initial=1.0) >= least:
-            return moved, found
-        back = np.unique(quads[found < least])
-        moved = moved.put(back, places.at(back))
-    return places, quality
+    return sliding.held_back(places, moved, quality, floor)
 
 
 def rectangles(corners: FloatArray, outward: FloatArray, sides: FloatArray) -> FloatArray:

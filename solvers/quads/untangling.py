@@ -6,7 +6,7 @@ import numpy as np
 
 from solvers.quads.quadmesh import QuadMesh
 from solvers.quads.sliding import Places, Sliding
-from solvers.surface.triangulation import BoolArray, IntArray
+from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
 
 POOR = 0.7
 """Scaled Jacobian below which quads are worked on. Chosen: angles of 45 degrees, about."""
@@ -27,8 +27,8 @@ DIRECTIONS = 8
 """How many ways are tried, evenly all around. Chosen."""
 
 
-def improve_worst(sliding: Sliding, places: Places, free: IntArray) -> Places:
-    """Return places with poor quads improved, and none worse than the worst was.
+def improve_worst(sliding: Sliding, places: Places, free: IntArray, floor: FloatArray) -> Places:
+    """Return places with poor quads improved, and none fallen below its floor.
 
     Vertices of poor quads, no two of one quad at a time, move to where the sum of powers of
     1 - quality of the quads around each is least.
@@ -41,6 +41,8 @@ def improve_worst(sliding: Sliding, places: Places, free: IntArray) -> Places:
         Where they are.
     free : (k,) int array
         Vertices that may move.
+    floor : (q,) float array
+        Scaled Jacobian that each quad keeps, or else what it has.
     """
     mesh = sliding.mesh
     may_move = np.zeros(mesh.n_vertices, dtype=bool)
@@ -54,7 +56,7 @@ def improve_worst(sliding: Sliding, places: Places, free: IntArray) -> Places:
         ids = np.flatnonzero(_independent(mesh, wanted & may_move, k))
         if len(ids) == 0 or idle == PATIENCE:
             break
-        radius, least = RADII[k % len(RADII)], float(quality.min())
+        radius, least = RADII[k % len(RADII)], np.minimum(floor, quality)
         tried = _tried(sliding, places, ids, around, radius, least)
         idle = idle + 1 if (tried.vertices == places.vertices).all() else 0
         places = tried
@@ -94,11 +96,11 @@ def _tried(
     ids: IntArray,
     around: _QuadsAround,
     radius: float,
-    least: float,
+    least: FloatArray,
 ) -> Places:
     """Return the places after each of the vertices took the best of a ring of places around it.
 
-    None after which a quad is worse than `least` and than the worst around before.
+    None after which a quad is worse than its `least`.
     """
     quads = sliding.mesh.quads
     at, quad = around.pairs(ids)
@@ -128,7 +130,7 @@ def _tried(
     quality = sliding.quality(everything, np.where(own, number[:, at][:, :, None], corners))
     starts = np.flatnonzero(np.r_[True, np.diff(at) > 0])
     badness = np.add.reduceat((1 - quality) ** POWER, starts, axis=1)
-    worst = np.minimum.reduceat(quality, starts, axis=1)
-    spoilt = (worst < least) & (worst < worst[0])
+    spoilt = np.logical_or.reduceat(quality < least[quad], starts, axis=1)
+    spoilt[0] = False
     best = np.argmin(np.where(spoilt, np.inf, badness), axis=0)
     return places.put(ids, made.at(best * len(ids) + np.arange(len(ids))))

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ import pytest
 from solvers.primitives import BUILTIN
 from solvers.quads.quadmesh import QuadMesh
 from solvers.quads.rails import Rail, boundary_rails
+from solvers.quads.sliding import Sliding
 from solvers.quads.smoothing import rectangles, smooth
 from solvers.surface.trisurface import TriSurface
 from tests.solvers.quads.quad_grids import (
@@ -30,6 +32,7 @@ def test_no_quad_becomes_worse_than_the_worst(name: str, noise: float) -> None:
     smoothed.check()
     before, after = mesh.scaled_jacobian, smoothed.scaled_jacobian
     assert after.min() >= before.min()
+    assert (after >= np.minimum(before, 0.5) - 1e-12).all() or before.min() <= 0
     assert after.mean() >= before.mean() - 1e-4
     if noise:
         assert after.min() > max(before.min(), 0)
@@ -208,3 +211,26 @@ def test_a_rail_knows_its_places() -> None:
 def test_the_same_mesh_gives_the_same_places() -> None:
     mesh = sphere(noise=0.5)
     assert (smooth(mesh).vertices == smooth(replace(mesh)).vertices).all()
+
+
+def test_a_corner_of_several_curves_takes_one_vertex_alone() -> None:
+    mesh = square(10)
+    surface, places = mesh.surface, mesh.vertices
+
+    def run(*ends: tuple[float, float]) -> np.ndarray:
+        """The vertices of the surface along straight rows from end to end."""
+        rows = np.concatenate([np.linspace(a, b, 200) for a, b in pairwise(ends)])
+        near = [surface.nearest_vertex(surface.closest_point([x, y, 0])) for x, y in rows]
+        return np.array([v for v, before in zip(near, [-1, *near], strict=False) if v != before])
+
+    rails = boundary_rails(surface)
+    rails += [Rail(surface, run((-0.5, 0), (0, 0), (0, 0.5)))]
+    rails += [Rail(surface, run((0.5, 0), (0, 0), (0, -0.5)))]
+    gaps = [np.linalg.norm(r.positions(r.nearest(places)) - places, axis=1) for r in rails]
+    on = np.array(gaps) < 1e-9
+    rail = np.where(on.any(axis=0), on.argmax(axis=0), -1)
+    held = replace(mesh, fixed=mesh.fixed | (on.sum(axis=0) > 1))
+    sliding = Sliding(held, rails, rail)
+    snapped, _ = sliding.snapped(sliding.start())
+    ends = snapped.vertices[mesh.edges]
+    assert np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).min() == pytest.approx(0.1)
