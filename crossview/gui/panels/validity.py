@@ -154,6 +154,7 @@ class ValidityPanel(QWidget):
         layout.addWidget(scroll, 1)
         bottom = QHBoxLayout()
         bottom.setContentsMargins(30, 4, 8, 4)
+        bottom.setSpacing(6)
         bottom.addWidget(self.make_valid)
         bottom.addWidget(self.improve)
         layout.addLayout(bottom)
