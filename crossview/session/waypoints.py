@@ -75,7 +75,7 @@ def move_to_validity(
     return ReplaceSingularities(moved.singularities, f"make valid{aimed}")
 
 
-def even_sizes_out(
+def improve_sizes(
     document: Document, base: LiveBase | None
 ) -> Generator[Progress, None, tuple[Command, Improved]]:
     """Move the unlocked singularities to where sizes are most even; yields each `Waypoint`.

@@ -15,6 +15,7 @@ from solvers.fields.feature_values import curve_values, edge_values
 from solvers.fields.integrability import Integrability
 from solvers.fields.sector_quads import chained
 from solvers.maps.closed_images import SeamlessMap
+from solvers.maps.matching import Matching
 from solvers.surface.triangulation import BoolArray, FloatArray, IntArray, IntrinsicTriangulation
 
 MUCH = 0.5
@@ -66,14 +67,13 @@ def by_release(
     chains = chained(aligned.sectors, whole)[0]
     value = curve_values(chains, aligned.sectors, edge_values(d))
     if map_ is None:
-        faulty = _most_in_error(i, integrated.x)
-        beside = _edges_beside(i.triangulation, _aligned(i), faulty)
+        matching, faulty = Matching.of(i), _most_in_error(i, integrated.x)
     else:
-        m = map_.matching
-        wound = np.isin(m.triangulation.faces, map_.wrong_windings)
+        matching = map_.matching
+        wound = np.isin(matching.triangulation.faces, map_.wrong_windings)
         faulty = np.asarray(wound.any(axis=1))
         faulty[map_.inverted] = True
-        beside = _edges_beside(m.triangulation, m.aligned, faulty)
+    beside = _edges_beside(matching, faulty)
     far = np.ones(chains.count, dtype=bool)
     far[chains.number[np.isin(_ends(i.triangulation, i.features), beside)]] = False
     edges = d.features.edges[d.feature_edge]
@@ -86,17 +86,9 @@ def _most_in_error(i: Integrability, x: FloatArray) -> BoolArray:
     return np.asarray(error >= MUCH * error.max())
 
 
-def _aligned(i: Integrability) -> BoolArray:
-    """Return which halfedges (3 m,) lie on features or the boundary."""
-    t = i.triangulation
-    aligned = np.zeros(len(t.twin), dtype=bool)
-    aligned[t.twin < 0] = True
-    aligned[i.features] = aligned[t.twin[i.features]] = True
-    return aligned
-
-
-def _edges_beside(t: IntrinsicTriangulation, aligned: BoolArray, faces: BoolArray) -> IntArray:
+def _edges_beside(matching: Matching, faces: BoolArray) -> IntArray:
     """Return the ends of aligned edges beside the pieces that some triangles are in."""
+    t, aligned = matching.triangulation, matching.aligned
     h = np.flatnonzero(~aligned)
     across = (np.ones(len(h), dtype=np.int8), (h // 3, t.twin[h] // 3))
     graph = coo_array(across, shape=(t.n_faces, t.n_faces))

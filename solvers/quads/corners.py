@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from solvers.features.dihedral import dihedral_angles
 from solvers.surface.sectors import corner_sectors
 from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface, closest_barycentric
@@ -59,14 +60,12 @@ class TangentPlanes:
     def __init__(self, surface: TriSurface) -> None:
         self._surface = surface
         t = surface.triangulation
-        inner = t.twin >= 0
-        face = np.arange(len(t.twin)) // 3
-        normals = surface.face_normals
-        cosine = (normals[face] * normals[t.twin // 3]).sum(axis=1)
-        self._crease: BoolArray = inner & (cosine < np.cos(CREASE))
+        sharp = t.edge_halfedges[dihedral_angles(surface) > CREASE]
+        self._crease: BoolArray = np.zeros(len(t.twin), dtype=bool)
+        self._crease[sharp] = self._crease[t.twin[sharp]] = True
         sector = corner_sectors(t, self._crease)
         around = [np.bincount(sector, np.repeat(x, 3)) for x in surface.area_vectors.T]
-        self._normals: FloatArray = _unit(np.stack(around, axis=1))[sector].reshape(-1, 3, 3)
+        self._normals: FloatArray = unit(np.stack(around, axis=1))[sector].reshape(-1, 3, 3)
         per_vertex = np.unique(np.stack([surface.faces.reshape(-1), sector]), axis=1)[0]
         self._split: BoolArray = np.bincount(per_vertex, minlength=surface.n_vertices) > 1
         self._star = np.argsort(surface.faces.reshape(-1), kind="stable")
@@ -87,7 +86,7 @@ class TangentPlanes:
         """
         faces, weights = self._beside(faces, weights, towards)
         found = (weights[:, :, None] * self._normals[faces]).sum(axis=1)
-        return np.asarray(found / np.maximum(np.linalg.norm(found, axis=1), 1e-300)[:, None])
+        return unit(found)
 
     def corner_normals(
         self, faces: IntArray, weights: FloatArray, places: FloatArray, quads: IntArray
@@ -151,9 +150,9 @@ class TangentPlanes:
         """Return places moved to the triangle of the angle that their vector is nearest to."""
         corners = self._surface.vertices[self._surface.faces]
         here = (weights[place][:, :, None] * corners[faces[place]]).sum(axis=1)
-        ways = [_unit(corners[triangle, end] - here) for end in (first, last)]
+        ways = [unit(corners[triangle, end] - here) for end in (first, last)]
         shape = np.stack([np.zeros_like(here), FAR * ways[0], FAR * ways[1]], axis=1)
-        vector = _unit(towards[place])
+        vector = unit(towards[place])
         near = closest_barycentric(shape, vector)
         gap = np.linalg.norm((near[:, :, None] * shape).sum(axis=1) - vector, axis=1)
         order = np.lexsort((triangle, gap, place))
@@ -227,5 +226,6 @@ def scaled_jacobian(corners: FloatArray, normals: FloatArray) -> FloatArray:
     return np.asarray(corner_sines(corners, normals).min(axis=-1))
 
 
-def _unit(vectors: FloatArray) -> FloatArray:
+def unit(vectors: FloatArray) -> FloatArray:
+    """Return vectors (..., 3) of length 1 in the same directions; 0 stays 0."""
     return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=-1), 1e-300)[..., None])

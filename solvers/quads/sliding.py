@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from solvers.quads.corners import TangentPlanes, scaled_jacobian
+from solvers.quads.corners import TangentPlanes, scaled_jacobian, unit
 from solvers.quads.projection import Projection
 from solvers.quads.quadmesh import QuadMesh
 from solvers.quads.rails import Rail
@@ -149,9 +149,8 @@ class Sliding:
         who = ids[at]
         behind, ahead = self._gaps(places)
         small = 0.25 * np.minimum(behind, ahead)[who]
-        tangent = self._on_rails(who, s[at] + small).vertices
-        tangent -= self._on_rails(who, s[at] - small).vertices
-        tangent /= np.maximum(np.linalg.norm(tangent, axis=1), 1e-300)[:, None]
+        after, before = (self._on_rails(who, s[at] + d).vertices for d in (small, -small))
+        tangent = unit(after - before)
         step = ((targets[at] - vertices[at]) * tangent).sum(axis=1)
         step = np.clip(step, -REACH * behind[who], REACH * ahead[who])
         return made.put(at, self._on_rails(who, s[at] + step))

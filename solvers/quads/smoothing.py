@@ -16,6 +16,7 @@ import numpy as np
 
 from solvers.kind_checks import one_of_kind
 from solvers.number_checks import whole_number
+from solvers.quads.corners import unit
 from solvers.quads.quadmesh import QuadMesh
 from solvers.quads.rails import Rail, boundary_rails
 from solvers.quads.sliding import SAME_PLACE, Places, Sliding
@@ -234,11 +235,11 @@ def rectangles(corners: FloatArray, outward: FloatArray, sides: FloatArray) -> F
     """
     first, second = _mean_sides(corners)
     width, height = np.linalg.norm([first, second], axis=2) ** (1 - PULL) * sides**PULL
-    first, second = _unit(first), _unit(second)
+    first, second = unit(first), unit(second)
     over = (np.cross(first, second) * outward).sum(axis=1) <= 0
     # The diagonals of the square on unit vectors along the mean sides are orthogonal.
-    long, short = _unit(first + second), first - second
-    short = _unit(np.where(over[:, None], np.cross(long, outward), short))
+    long, short = unit(first + second), first - second
+    short = unit(np.where(over[:, None], np.cross(long, outward), short))
     u = np.sqrt(0.125) * width[:, None] * (long + short)
     v = np.sqrt(0.125) * height[:, None] * (long - short)
     middle = corners.mean(axis=1)
@@ -249,7 +250,3 @@ def _mean_sides(corners: FloatArray) -> FloatArray:
     """Return (2, q, 3) the means of opposite sides of quads (q, 4, 3)."""
     a, b, c, d = (corners[:, i] for i in range(4))
     return 0.5 * np.stack([b - a + c - d, c - b + d - a])
-
-
-def _unit(vectors: FloatArray) -> FloatArray:
-    return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=1), 1e-300)[:, None])

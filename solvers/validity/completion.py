@@ -13,7 +13,6 @@ from collections.abc import Generator, Iterable, Sequence
 import numpy as np
 from scipy.spatial import cKDTree
 
-from solvers.algebra.operators import lumped_mass
 from solvers.errors import SingularityError
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.progress import Progress
@@ -104,7 +103,6 @@ class _Places:
         self._index = index
         self.chosen: list[int] = []
         t, surface = solver.discretization.triangulation, solver.surface
-        self._mass = lumped_mass(t)
         self._right = t.curvatures.copy()
         for vertex, corner in solver.corners.items():
             self._right[vertex] -= QUARTER * corner
@@ -144,7 +142,8 @@ class _Places:
         """Return H of the configuration with some of its own, what is missing spread evenly."""
         right = self._right.copy()
         np.subtract.at(right, np.array(vertices, dtype=np.int64), QUARTER * self._index)
-        right -= right.sum() / self._mass.sum() * self._mass
+        mass = self._solver.mass
+        right -= right.sum() / mass.sum() * mass
         h = np.zeros(len(right))
         h[1:] = self._solver.factorization.solve(right[1:])
         return h

@@ -219,7 +219,7 @@ class _Descent:
     def _at(self, singularities: Places, sizes: Sizes) -> None:
         self.singularities, self.sizes = singularities, sizes
         self.defects = self._guide.defects(singularities)
-        self._slope = self._unevenness.gradient(sizes, singularities) * self._moves.free[:, None]
+        self._slope = self._unevenness.gradient(sizes) * self._moves.free[:, None]
         gradients = self._guide.gradients([s.point for s in singularities])
         self._matrix = self._moves.by_moves(gradients)
 

@@ -13,6 +13,40 @@ from solvers.singularities.budget import Singularity
 from solvers.surface.triangulation import QUARTER, FloatArray
 
 
+class Spread:
+    """What it costs that each singularity's curvature is spread over its triangle's corners.
+
+    Spread with mean square distance s, it changes H by (pi/8) k s at its place, less the mean, and
+    the variance by (pi/4) k s (H - k/8) over the area, where H is the spread one's at the place.
+    Without this the variance would be least wherever triangles are largest.
+
+    Parameters
+    ----------
+    solver : IsotropicSolver
+        On the surface.
+    singularities : sequence of Singularity
+        The configuration.
+    """
+
+    def __init__(self, solver: IsotropicSolver, singularities: Sequence[Singularity]) -> None:
+        d = solver.discretization
+        points = [s.point for s in singularities]
+        self.at = d.locate(points)
+        faces, self.weights = d.place(points)
+        t = d.triangulation
+        self.index = np.array([s.index for s in singularities], dtype=np.float64)
+        self.weight = QUARTER / 2 * self.index / solver.mass.sum()
+        self.corners = t.faces[faces]
+        corner = t.corner_positions[faces]
+        place = np.einsum("ki,kid->kd", self.weights, corner)
+        self.squares = ((corner - place[:, None]) ** 2).sum(axis=2)
+        self.square = (self.weights * self.squares).sum(axis=1)
+
+    def mean(self, values: FloatArray) -> FloatArray:
+        """Return values of the triangulation's vertices at the singularities."""
+        return np.asarray((self.weights * values[self.corners]).sum(axis=1))
+
+
 @dataclass(frozen=True, eq=False)
 class Sizes:
     """The sizes of one configuration's field against those wanted.
@@ -23,6 +57,8 @@ class Sizes:
         H less the logarithm of what is wanted, of mean zero, on the working triangulation.
     variance : float
         Mean of its squares over the surface.
+    spread : Spread
+        Of the configuration's curvature over the triangulation.
 
     Examples
     --------
@@ -37,6 +73,7 @@ class Sizes:
 
     off: FloatArray
     variance: float
+    spread: Spread
 
     @property
     def ratio(self) -> float:
@@ -106,61 +143,32 @@ class Unevenness:
         """
         off = self._solver.log_sizes(singularities) - self._wanted
         off -= self._mass @ off
-        spread = _Spread(self._solver, singularities)
+        spread = Spread(self._solver, singularities)
         excess = spread.weight * spread.square @ (spread.mean(off) - spread.index / 8)
-        return Sizes(off, float(self._mass @ off**2 - excess))
+        return Sizes(off, float(self._mass @ off**2 - excess), spread)
 
-    def gradient(self, sizes: Sizes, singularities: Sequence[Singularity]) -> FloatArray:
+    def gradient(self, sizes: Sizes) -> FloatArray:
         """Return how the variance changes as each singularity moves, by one back-substitution.
 
         Parameters
         ----------
         sizes : Sizes
             Those of the configuration.
-        singularities : sequence of Singularity
-            The configuration.
 
         Returns
         -------
         (k, 2) float array
             In the frames of the singularities' triangles.
         """
-        solver, off = self._solver, sizes.off
-        d, spread = solver.discretization, _Spread(solver, singularities)
+        solver, off, spread = self._solver, sizes.off, sizes.spread
         excess = spread.weight * spread.square
         right = 2 * self._mass * off + excess.sum() * self._mass
         np.subtract.at(right, spread.corners, excess[:, None] * spread.weights)
         p = np.zeros(len(off))
         p[1:] = solver.factorization.solve(right[1:])
-        at = d.locate([s.point for s in singularities])
         values = np.stack([p[spread.corners], spread.squares, off[spread.corners]])
-        by_p, by_square, by_off = d.gradients(values, at)
+        by_p, by_square, by_off = solver.discretization.gradients(values, spread.at)
         by_excess = (spread.mean(off) - spread.index / 8)[:, None] * by_square
         by_excess += spread.square[:, None] * by_off
         curvature = QUARTER * spread.index
         return np.asarray(-curvature[:, None] * by_p - spread.weight[:, None] * by_excess)
-
-
-class _Spread:
-    """What it costs that each singularity's curvature is spread over its triangle's corners.
-
-    Spread with mean square distance s, it changes H by (pi/8) k s at its place, less the mean, and
-    the variance by (pi/4) k s (H - k/8) over the area, where H is the spread one's at the place.
-    Without this the variance would be least wherever triangles are largest.
-    """
-
-    def __init__(self, solver: IsotropicSolver, singularities: Sequence[Singularity]) -> None:
-        d = solver.discretization
-        faces, self.weights = d.place([s.point for s in singularities])
-        t = d.triangulation
-        self.index = np.array([s.index for s in singularities], dtype=np.float64)
-        self.weight = QUARTER / 2 * self.index / solver.mass.sum()
-        self.corners = t.faces[faces]
-        corner = t.corner_positions[faces]
-        place = np.einsum("ki,kid->kd", self.weights, corner)
-        self.squares = ((corner - place[:, None]) ** 2).sum(axis=2)
-        self.square = (self.weights * self.squares).sum(axis=1)
-
-    def mean(self, values: FloatArray) -> FloatArray:
-        """Return values of the triangulation's vertices at the singularities."""
-        return np.asarray((self.weights * values[self.corners]).sum(axis=1))

@@ -13,7 +13,7 @@ from crossview.session.verbs.group import VerbGroup
 from crossview.session.waypoints import (
     IMPROVE,
     Waypoint,
-    even_sizes_out,
+    improve_sizes,
     move_to_validity,
     place_natural,
 )
@@ -67,7 +67,7 @@ class Moves(VerbGroup):
             else:
                 self._say_unchanged()
 
-        way = partial(even_sizes_out, state.document, state.base)
+        way = partial(improve_sizes, state.document, state.base)
         self._run(lambda: relayed(way(), keep), done, stopped)
 
     def place_natural(self, method: str) -> None:
