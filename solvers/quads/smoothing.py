@@ -53,7 +53,8 @@ def smooth(
 ) -> QuadMesh:
     """Return a mesh with quads more like rectangles, none worse than before and than `GOOD`.
 
-    So no more quads are inverted, and the least scaled Jacobian is no lower, unless it was good.
+    Inverted quads may become worse, if fewer are left, but none than the worst. So no more are
+    inverted, and the least scaled Jacobian is no lower, unless it was good.
     Vertices stay on the surface, those of a boundary or a curve on it, fixed ones where they are.
     The nearest vertex is put on each sharp turn of a boundary or a curve that has none, if that
     spoils no quad.
@@ -118,10 +119,13 @@ def smooth(
     floor = np.minimum(quality, GOOD)
     found = _kept_above(floor, sliding, start, rounds)
     if (sliding.quality(found, mesh.quads) <= 0).any():
-        # Some unfold only if they may fold further on the way.
-        loose = np.where(quality > 0, floor, -1.0)
-        tried = _kept_above(loose, sliding, start, rounds)
-        found = max(found, tried, key=lambda places: _worth(sliding.quality(places, mesh.quads)))
+        # Some unfold only if they may fold further on the way, if need be not beyond the worst.
+        for depth in (-1.0, quality.min()):
+            loose = np.where(quality > 0, floor, depth)
+            tried = _kept_above(loose, sliding, start, rounds)
+            if sliding.quality(tried, mesh.quads).min() >= quality.min():
+                found = max(found, tried, key=lambda p: _worth(sliding.quality(p, mesh.quads)))
+                break
     return replace(mesh, vertices=found.vertices, faces=found.faces, barycentric=found.weights)
 
 
