@@ -155,9 +155,11 @@ def summary(solution: Solution) -> str:
 def _released(solution: Solution) -> str:
     """How many feature curves are not followed, and why."""
     found = {reason: len(features.curves) for reason, features in solution.released_for.items()}
-    every = len(solution.prepared.features.curves)
-    said = "".join(f", {n} for {reason}" for reason, n in found.items())
-    return f", released of {counted(every, 'feature curve')}: {said[2:]}" if found else ""
+    if not found:
+        return ""
+    every = counted(len(solution.prepared.features.curves), "feature curve")
+    why = ", ".join(f"{reason} ({n})" for reason, n in found.items())
+    return f", released {sum(found.values())} of {every}: {why}"
 
 
 def _defects(solution: Solution) -> str:

@@ -195,7 +195,7 @@ def test_a_curve_without_room_is_released_and_named() -> None:
         surface, threes, method="aligned", marking=Marking(marked=frozenset(spokes[:5].tolist()))
     )
     solution = run(Pipeline().solve(problem))
-    assert "released of 5 feature curves: 1 for no room for a quad beside" in summary(solution)
+    assert "released 1 of 5 feature curves: no room for a quad beside them (1)" in summary(solution)
     found = report(solution)
     assert len(found["features"]) == 4
     (released,) = found["released_features"]

@@ -65,7 +65,7 @@ def test_a_curve_that_comes_back_elsewhere_than_it_left_is_released() -> None:
     assert np.abs(solution.field.feature_misalignment).max() < 1e-9
     found = report(solution)["released_features"]
     assert {curve["reason"] for curve in found} == {NO_MAP}
-    assert f"{len(found)} for {NO_MAP}" in summary(solution)
+    assert f"{NO_MAP} ({len(found)})" in summary(solution)
     fractions = [step.fraction for step in steps]
     assert fractions == sorted(fractions)
     assert any("without" in step.stage for step in steps)
