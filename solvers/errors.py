@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copyreg
+import json
 from collections.abc import Callable, Iterable
 from typing import Any
 
@@ -58,13 +59,13 @@ class CrossviewError(Exception):
         told : callable, optional
             The words of a remedy, such as those with the command that does it.
         """
-        line = self.what
+        line = shortened(self.what)
         if self.where:
-            line += f" ({self.where})"
+            line += f" ({shortened(self.where, LONGEST_PLACE)})"
         to_do = self.to_do(told)
         if to_do:
-            line += f": {to_do}"
-        return " ".join(line.split())
+            line += f": {shortened(to_do)}"
+        return printable(" ".join(line.split()))
 
     def to_do(self, told: Callable[[Remedy], str] = lambda remedy: remedy.words) -> str:
         """Return the advice and the remedies in words; empty where there are none.
@@ -171,6 +172,57 @@ class SolveError(CrossviewError):
     ...     print(error.what)
     the linear system could not be solved
     """
+
+
+LONGEST = 400
+"""Characters of what is wrong and of what to do that a line tells. Chosen."""
+
+LONGEST_PLACE = 4400
+"""Of where it is wrong: the longest path that Linux has, 4096, and a key in the file."""
+
+
+def shortened(text: str, most: int = LONGEST) -> str:
+    """Return a text without its middle if it is too long.
+
+    Parameters
+    ----------
+    text : str
+        Perhaps from a file, which may hold anything.
+    most : int, optional
+        Characters that are kept.
+
+    Examples
+    --------
+    >>> from solvers.errors import shortened
+    >>> shortened("abcdefghij", 7)
+    'ab...ij'
+    """
+    if len(text) <= most:
+        return text
+    half = (most - 3) // 2
+    return f"{text[:half]}...{text[-half:]}"
+
+
+def printable(text: str) -> str:
+    r"""Return a text in which characters that steer a terminal are written as JSON does.
+
+    Parameters
+    ----------
+    text : str
+        Perhaps with line breaks, which stay.
+
+    Examples
+    --------
+    >>> from solvers.errors import printable
+    >>> print(printable("a\x1b[31mb"))
+    a\u001b[31mb
+    """
+    if text.isprintable():
+        return text
+    return "".join(
+        c if c.isprintable() or c in "\n " else json.dumps(c)[1:-1].replace("\x7f", r"\u007f")
+        for c in text
+    )
 
 
 def listed(elements: npt.NDArray[np.int64], limit: int = 5) -> str:

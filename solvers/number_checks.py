@@ -17,10 +17,11 @@ from solvers.errors import CrossviewError
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]
 
-LARGEST = 1e100
+LARGEST = 1e50
 """Bound of all numbers, coordinates and lengths in the surface's unit.
 
-From the range of double precision, 1.8e308: the products of three must not overflow.
+From the range of double precision, 1.8e308: the squares of areas and the products of six lengths
+must not overflow.
 """
 
 EXACT = 2**53

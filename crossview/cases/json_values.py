@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from crossview.io.regular_file import require_regular
 from solvers.errors import CrossviewError
 
 
@@ -46,6 +47,7 @@ def read_json(path: Path) -> JsonField:
         object names a key twice.
     """
     try:
+        require_regular(path)
         text = path.read_text(encoding="utf-8-sig")  # some editors begin with a byte order mark
     except UnicodeDecodeError as error:
         raise CaseError("the case is not a text file in UTF-8", str(path)) from error

@@ -47,7 +47,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        Exit status: 0 (or the window's), 2 for a mistake the user can mend, 130 when interrupted.
+        Exit status: 0 (or the window's, or what `info` says), 2 for a mistake the user can mend,
+        130 when interrupted.
     """
     tokens = list(sys.argv[1:] if arguments is None else arguments)
     try:

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 
 from crossview.cases.model import Builtin, Case
-from crossview.io import read_surface
+from crossview.io import RawSurface, read_surface
 from crossview.workflow.loading import load_surfaces, mended
 from crossview.workflow.problem import Problem, problems_on
 from solvers.errors import SurfaceError
-from solvers.repair import Repaired, merge_coincident
+from solvers.repair import NoComponent, Repaired, merge_coincident
 from solvers.singularities import existence, index_budget
 from solvers.surface import array_problems, problems
 
@@ -22,7 +22,8 @@ def describe(case: Case) -> dict[str, Any]:
 
     All components are described unless the case chooses one. "problems" are those of the file's
     own triangles (joined, for formats that do not share vertices), "notes" is what was mended;
-    "components" is empty if the rest keeps the triangles from being a surface.
+    "components" is empty if the rest keeps the triangles from being a surface; "usable" is "yes",
+    "with repair" or "no".
 
     Raises
     ------
@@ -36,12 +37,14 @@ def describe(case: Case) -> dict[str, Any]:
         made = pieces[0].surface
         counts = made.n_vertices, made.n_faces
         found: list[SurfaceError] = []
+        usable = "yes"
     else:
-        counts, found, pieces = _read(case, case.surface)
+        counts, found, pieces, usable = _read(case, case.surface)
     posed = problems_on(case, pieces) if pieces else ()
     return {
         "vertices": counts[0],
         "faces": counts[1],
+        "usable": usable,
         "problems": [_problem(error) for error in found],
         "notes": list(pieces[0].notes) if pieces else [],
         "components": [_component(problem) for problem in posed],
@@ -50,21 +53,34 @@ def describe(case: Case) -> dict[str, Any]:
 
 def _read(
     case: Case, path: str
-) -> tuple[tuple[int, int], list[SurfaceError], tuple[Repaired, ...]]:
-    """Numbers of vertices and triangles, what is wrong with them, the surfaces made of them."""
+) -> tuple[tuple[int, int], list[SurfaceError], tuple[Repaired, ...], str]:
+    """Counts of vertices and triangles, their problems, the surfaces made of them, if usable."""
     raw = read_surface(path)
     vertices, faces = raw.vertices, raw.faces
     if raw.merge and not any(array_problems(vertices, faces)):
         vertices, faces, _ = merge_coincident(vertices, faces)
     found = list(problems(vertices, faces))
+    usable = "yes"
     try:
         pieces = mended(raw, case)
+    except NoComponent:
+        raise
     except SurfaceError as error:
         pieces = ()
+        usable = "with repair" if _mendable(raw, case) else "no"
         # a one-sided surface shows only when orienting it is tried
         if not any(_same(error, problem) for problem in found):
             found.append(error)
-    return (len(vertices), len(faces)), found, pieces
+    return (len(vertices), len(faces)), found, pieces, usable
+
+
+def _mendable(raw: RawSurface, case: Case) -> bool:
+    """Whether the option repair makes surfaces of what was read."""
+    try:
+        mended(raw, replace(case, options=replace(case.options, repair=True)))
+    except SurfaceError:
+        return False
+    return True
 
 
 def _same(one: SurfaceError, other: SurfaceError) -> bool:

@@ -9,6 +9,9 @@ from crossview.cli.describe import describe
 from crossview.cli.options import Json, SurfaceOptions
 from crossview.cli.terminal import say, say_json
 
+STATUS = {"yes": 0, "with repair": 1, "no": 2}
+"""Exit status for each answer to whether a surface is usable."""
+
 
 def info(
     surface: str,
@@ -16,8 +19,10 @@ def info(
     *,
     chosen: SurfaceOptions = SurfaceOptions(),
     as_json: Json = False,
-) -> None:
+) -> int:
     """Describe a surface: counts, topology, problems, what its singularities must sum to.
+
+    The exit status is 0 if each component can be solved on, 1 if it can with --repair, 2 if not.
 
     Parameters
     ----------
@@ -32,6 +37,7 @@ def info(
     else:
         for line in _lines(surface, found):
             say(line)
+    return STATUS[found["usable"]]
 
 
 def _lines(name: str, found: dict[str, Any]) -> Iterator[str]:

@@ -11,6 +11,7 @@ from rich.console import Console
 from rich.progress import BarColumn, TextColumn, TimeElapsedColumn
 from rich.progress import Progress as Bar
 
+from solvers.errors import printable
 from solvers.progress import Progress, run
 
 T = TypeVar("T")
@@ -36,6 +37,7 @@ def complain(line: str) -> None:
 
 def _write(console: Console, line: str) -> None:
     # a terminal of few letters shows the others by their numbers
+    line = printable(line)
     line = line.encode(console.encoding, "backslashreplace").decode(console.encoding)
     console.print(line, markup=False, highlight=False, emoji=False, soft_wrap=True)
 

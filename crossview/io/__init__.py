@@ -6,37 +6,30 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
+from crossview.io.gltf import read_gltf
+from crossview.io.msh import read_msh
 from crossview.io.ply import read_ply
 from crossview.io.polygons import Polygons
+from crossview.io.regular_file import require_regular
 from crossview.io.stl import read_stl
 from crossview.io.text import read_obj, read_off
-from solvers.errors import CrossviewError
+from crossview.io.vtk_files import read_vtk
+from solvers.errors import CrossviewError, SurfaceError
 from solvers.surface import FloatArray, IntArray
-
-
-def _from_libraries(name: str) -> Callable[[Path], Polygons]:
-    """A function of `libraries`, imported when it is wanted: that takes a quarter of a second."""
-
-    def read(path: Path) -> Polygons:
-        from crossview.io import libraries
-
-        reader: Callable[[Path], Polygons] = getattr(libraries, name)
-        return reader(path)
-
-    return read
-
 
 READERS: dict[str, Callable[[Path], Polygons]] = {
     ".obj": read_obj,
     ".ply": read_ply,
     ".stl": read_stl,
     ".off": read_off,
-    ".vtk": _from_libraries("read_vtk"),
-    ".vtp": _from_libraries("read_vtp"),
-    ".vtu": _from_libraries("read_vtu"),
-    ".gltf": _from_libraries("read_gltf"),
-    ".glb": _from_libraries("read_gltf"),
-    ".msh": _from_libraries("read_msh"),
+    ".vtk": read_vtk,
+    ".vtp": read_vtk,
+    ".vtu": read_vtk,
+    ".gltf": read_gltf,
+    ".glb": read_gltf,
+    ".msh": read_msh,
 }
 """The reader of each format, by the ending of its files."""
 
@@ -88,19 +81,23 @@ def read_surface(path: str | Path) -> RawSurface:
             f"use one of {' '.join(suffix[1:] for suffix in SUFFIXES)}",
         )
     try:
-        if path.stat().st_size == 0:
+        if not require_regular(path):
             raise CrossviewError("the file is empty", str(path))
-        polygons = reader(path)
-        faces, notes = polygons.triangles()
+        with np.errstate(all="ignore"):  # what is no number is told of the surface
+            polygons = reader(path)
+            faces, notes = polygons.triangles()
+    except SurfaceError as error:
+        error.locate(str(path))
+        raise
     except CrossviewError:
         raise
     except OSError as error:
         reason = (error.strerror or str(error)).lower()
         raise CrossviewError(f"cannot open the file: {reason}", str(path)) from error
-    # a malformed file shows in the libraries as almost any exception
-    except Exception as error:
-        reason = str(error).strip().partition("\n")[0] or type(error).__name__
-        raise CrossviewError("cannot read this file", str(path), reason) from error
+    except MemoryError as error:
+        raise CrossviewError("the file needs more memory than there is", str(path)) from error
+    except (ValueError, OverflowError) as error:
+        raise CrossviewError("malformed file", str(path), str(error)) from error
     if not len(faces):
         raise CrossviewError("the file holds no faces", str(path), "a surface needs triangles")
     return RawSurface(polygons.points, faces, notes, path.suffix.lower() in UNSHARED)

@@ -12,6 +12,7 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import breadth_first_order
 
 from crossview.io.polygons import Polygons
+from crossview.io.regular_file import unmarked
 from solvers.errors import CrossviewError
 from solvers.number_checks import real_numbers, whole_numbers
 from solvers.surface import IntArray
@@ -56,7 +57,7 @@ class _Column:
 
 def read_ply(path: Path) -> Polygons:
     """Read vertices and faces of a PLY file, text or binary."""
-    content = path.read_bytes()
+    content = unmarked(path.read_bytes())
     none = np.empty(0, dtype=np.int64)
     points, faces = np.empty((0, 3)), _Column(none, none)
     try:

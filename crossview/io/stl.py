@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from crossview.io.polygons import Polygons
-from solvers.errors import CrossviewError
+from crossview.io.regular_file import unmarked
+from solvers.errors import CrossviewError, counted
 from solvers.surface import FloatArray
 
 HEADER = 84
@@ -22,18 +23,29 @@ VERTEX = re.compile(rb"\bvertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
 
 
 def read_stl(path: Path) -> Polygons:
-    """Read triangles from a binary or text STL file, each with three vertices of its own."""
+    """Read triangles from a binary or text STL file, each with three vertices of its own.
+
+    Many binary files begin with "solid" as those of text do: the size decides. Of a binary file
+    with more bytes than its triangles need, or a wrong number of them, whole triangles are taken.
+    """
     data = path.read_bytes()
-    # many binary files begin with "solid" too: the size decides
     count = int.from_bytes(data[80:HEADER], "little") if len(data) >= HEADER else -1
-    if count >= 0 and len(data) == HEADER + count * RECORD.itemsize:
-        records = np.frombuffer(data, RECORD, count, HEADER)
-        corners = records["corners"].astype(np.float64)
-    elif data.lstrip()[:5].lower() == b"solid":
+    whole, over = divmod(max(len(data) - HEADER, 0), RECORD.itemsize)
+    notes: tuple[str, ...] = ()
+    exact = count == whole and not over
+    if not exact and unmarked(data).lstrip()[:5].lower() == b"solid":
         corners = _text_corners(data, path)
-    else:
+    elif count < 0 or (over and count > whole) or not whole:
         raise CrossviewError("the STL file is cut short or no STL file", str(path), "write it anew")
-    return Polygons(corners.reshape(-1, 3), np.full(len(corners), 3), np.arange(3 * len(corners)))
+    else:
+        if over and count:  # something else follows the triangles
+            after = len(data) - HEADER - count * RECORD.itemsize
+            whole, notes = count, (f"left out {counted(after, 'byte')} at the end",)
+        elif count != whole:
+            notes = (f"took all {counted(whole, 'triangle')}, although {count} are announced",)
+        corners = np.frombuffer(data, RECORD, whole, HEADER)["corners"].astype(np.float64)
+    points = corners.reshape(-1, 3)
+    return Polygons(points, np.full(len(corners), 3), np.arange(len(points)), notes)
 
 
 def _text_corners(data: bytes, path: Path) -> FloatArray:

@@ -12,8 +12,10 @@ from pathlib import Path
 import numpy as np
 
 from crossview.io.polygons import Polygons
+from crossview.io.regular_file import unmarked
 from crossview.io.words import Words
 from solvers.errors import CrossviewError
+from solvers.number_checks import EXACT
 
 KINDS = (b"OFF", b"COFF", b"NOFF", b"CNOFF", b"STOFF")
 """First words of OFF files in text form."""
@@ -21,8 +23,9 @@ KINDS = (b"OFF", b"COFF", b"NOFF", b"CNOFF", b"STOFF")
 
 def read_obj(path: Path) -> Polygons:
     """Read vertices and faces of a Wavefront OBJ file; texture and normals play no part."""
+    data = unmarked(path.read_bytes())
     try:
-        words = Words.of(path.read_bytes(), slashed=b"f")
+        words = Words.of(data, slashed=b"f")
         vertices, faces = words.starting(b"v"), words.starting(b"f")
         sizes = words.count[faces] - 1
         points = words.numbers(vertices, 1, 3)
@@ -30,7 +33,7 @@ def read_obj(path: Path) -> Polygons:
         if (sizes < 3).any() or not corners.all():
             raise ValueError
     except ValueError:
-        return _read_obj_by_line(path)
+        return _read_obj_by_line(data, path)
     # negative numbers count back from the latest vertex
     known = np.repeat(np.searchsorted(vertices, faces), sizes)
     return Polygons(points, sizes, np.where(corners > 0, corners - 1, known + corners))
@@ -38,8 +41,9 @@ def read_obj(path: Path) -> Polygons:
 
 def read_off(path: Path) -> Polygons:
     """Read an OFF file in text form, also with colours, normals or texture (COFF, NOFF, STOFF)."""
+    data = unmarked(path.read_bytes())
     try:
-        words = Words.of(path.read_bytes())
+        words = Words.of(data)
         line = 1 if words.count[:1].tolist() == [1] else 0
         head = words.whole_numbers(np.array([line]), 1 - line, np.array([2]))
         n_points, n_faces = head.tolist()
@@ -54,21 +58,21 @@ def read_off(path: Path) -> Polygons:
         if (sizes < 3).any():
             raise ValueError
     except (ValueError, IndexError):
-        return _read_off_by_line(path)
+        return _read_off_by_line(data, path)
     return Polygons(points, sizes, corners)
 
 
-def _read_obj_by_line(path: Path) -> Polygons:
+def _read_obj_by_line(data: bytes, path: Path) -> Polygons:
     points: list[list[float]] = []
     sizes: list[int] = []
     corners: list[int] = []
-    for number, words in _lines(path):
+    for number, words in _lines(data):
         try:
             if words[0] == "v":
                 x, y, z = words[1:4]
                 points.append([float(x), float(y), float(z)])
             elif words[0] == "f":
-                face = [int(word.partition("/")[0]) for word in words[1:]]
+                face = [_number(word.partition("/")[0]) for word in words[1:]]
                 if len(face) < 3 or 0 in face:
                     raise ValueError
                 # negative numbers count back from the latest vertex
@@ -76,13 +80,11 @@ def _read_obj_by_line(path: Path) -> Polygons:
                 sizes.append(len(face))
         except ValueError:
             raise _malformed("OBJ", path, number) from None
-    return Polygons(
-        np.array(points, dtype=np.float64).reshape(-1, 3), np.array(sizes), np.array(corners)
-    )
+    return _polygons(points, sizes, corners)
 
 
-def _read_off_by_line(path: Path) -> Polygons:
-    lines = _lines(path)
+def _read_off_by_line(data: bytes, path: Path) -> Polygons:
+    lines = _lines(data)
     number, words = next(lines, (1, []))
     try:
         if words[0].upper().encode("latin-1") not in KINDS:
@@ -91,39 +93,58 @@ def _read_off_by_line(path: Path) -> Polygons:
             number, words = next(lines)
         else:
             words = words[1:]
-        n_points, n_faces = int(words[0]), int(words[1])
-        points = np.empty((n_points, 3))
-        for i in range(n_points):
+        n_points, n_faces = _number(words[0]), _number(words[1])
+        if min(n_points, n_faces) < 0:
+            raise ValueError
+        points: list[list[float]] = []
+        for _ in range(n_points):
             number, words = next(lines)
-            points[i] = [float(word) for word in words[:3]]
-        sizes = np.empty(n_faces, dtype=np.int64)
+            x, y, z = words[:3]
+            points.append([float(x), float(y), float(z)])
+        sizes: list[int] = []
         corners: list[int] = []
-        for i in range(n_faces):
+        for _ in range(n_faces):
             number, words = next(lines)
-            sizes[i] = int(words[0])
-            face = [int(word) for word in words[1 : 1 + sizes[i]]]
-            if len(face) != sizes[i] or len(face) < 3:
+            size = _number(words[0])
+            face = [_number(word) for word in words[1 : 1 + size]]
+            if len(face) != size or size < 3:
                 raise ValueError
+            sizes.append(size)
             corners += face
     except (ValueError, IndexError):
         raise _malformed("OFF", path, number) from None
     except StopIteration:
         raise CrossviewError("the OFF file ends too early", str(path), "write it anew") from None
-    return Polygons(points, sizes, np.array(corners, dtype=np.int64))
+    return _polygons(points, sizes, corners)
 
 
-def _lines(path: Path) -> Iterator[tuple[int, list[str]]]:
+def _polygons(points: list[list[float]], sizes: list[int], corners: list[int]) -> Polygons:
+    return Polygons(
+        np.array(points, dtype=np.float64).reshape(-1, 3),
+        np.array(sizes, dtype=np.int64),
+        np.array(corners, dtype=np.int64),
+    )
+
+
+def _number(word: str) -> int:
+    """Return a whole number that an array holds, or raise ValueError."""
+    number = int(word)
+    if abs(number) > EXACT:
+        raise ValueError
+    return number
+
+
+def _lines(data: bytes) -> Iterator[tuple[int, list[str]]]:
     """Yield the number and the words of each line that is not empty, comments left out."""
-    with path.open(encoding="latin-1") as file:
-        continued: list[str] = []
-        for number, line in enumerate(file, 1):
-            words = continued + line.partition("#")[0].split()
-            if words and words[-1] == "\\":
-                continued = words[:-1]
-                continue
-            continued = []
-            if words:
-                yield number, words
+    continued: list[str] = []
+    for number, line in enumerate(data.splitlines(), 1):
+        words = continued + line.decode("latin-1").partition("#")[0].split()
+        if words and words[-1] == "\\":
+            continued = words[:-1]
+            continue
+        continued = []
+        if words:
+            yield number, words
 
 
 def _malformed(kind: str, path: Path, number: int) -> CrossviewError:

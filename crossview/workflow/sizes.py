@@ -9,6 +9,8 @@ import numpy as np
 
 from crossview.cases.json_values import CaseError
 from crossview.cases.model import Sizes
+from crossview.io.npy import read_npy
+from crossview.io.regular_file import require_regular
 from solvers.fields import size_map
 from solvers.surface import FloatArray, Refinement, barycentric
 
@@ -41,17 +43,16 @@ def _read(name: str) -> FloatArray:
     path = Path(name)
     try:
         if path.suffix.lower() == ".npy":
-            values = np.load(path, allow_pickle=False)
+            values = read_npy(path)
         else:
+            require_regular(path)
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")  # an empty file is told by its length
                 values = np.loadtxt(path)
-        if not np.issubdtype(values.dtype, np.number) or np.iscomplexobj(values):
-            raise ValueError
         return np.asarray(values, dtype=float)
     except OSError as error:
         raise CaseError(f"cannot read the size map, {error.strerror or error}", name) from error
-    except (ValueError, EOFError) as error:
+    except ValueError as error:
         raise CaseError("the size map is not an array of numbers", name) from error
 
 

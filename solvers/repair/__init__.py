@@ -3,6 +3,6 @@
 from __future__ import annotations
 
 from solvers.repair.flat_triangles import merge_coincident
-from solvers.repair.soup import Repaired, repair, repair_each
+from solvers.repair.soup import NoComponent, Repaired, repair, repair_each
 
-__all__ = ["Repaired", "merge_coincident", "repair", "repair_each"]
+__all__ = ["NoComponent", "Repaired", "merge_coincident", "repair", "repair_each"]

@@ -23,6 +23,31 @@ from solvers.surface.validation import (
 )
 
 
+class NoComponent(SurfaceError):
+    """A component that is asked for and not there.
+
+    Parameters
+    ----------
+    what, where, advice : str
+        As in `SurfaceError`.
+    elements : array_like of int, optional
+        As in `SurfaceError`.
+    kind : {"", "faces", "vertices", "edges"}, optional
+        As in `SurfaceError`.
+    remedies : iterable of Remedy, optional
+        As in `SurfaceError`.
+
+    Examples
+    --------
+    >>> from solvers.repair import NoComponent, repair
+    >>> try:
+    ...     repair([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], component=9)
+    ... except NoComponent as error:
+    ...     print(error)
+    there is no component 9 (of 1): choose "largest" or a number from 0 to 0
+    """
+
+
 @dataclass(frozen=True)
 class Repaired:
     """A surface, and what was done to the arrays it comes from.
@@ -208,7 +233,7 @@ def _choose(n_points: int, triangles: IntArray, component: int | str) -> tuple[I
     count = int(of_face.max(initial=0)) + 1
     number = 0 if component == "largest" else component
     if not isinstance(number, int) or not 0 <= number < count:
-        raise SurfaceError(
+        raise NoComponent(
             f"there is no component {component}",
             f"of {count}",
             f'choose "largest" or a number from 0 to {count - 1}',

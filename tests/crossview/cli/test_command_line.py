@@ -246,6 +246,33 @@ def test_info_reports_what_is_wrong_with_a_surface(crossview: Crossview, tmp_pat
     assert crossview("info", path, "--repair", "--json").json["components"] != []
 
 
+def test_info_tells_scripts_whether_a_surface_is_usable(
+    crossview: Crossview, two_pieces: Path, tmp_path: Path
+) -> None:
+    """0: as it is, each of its components; 1: with --repair; 2: not."""
+    vertices = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
+    doubled = write_obj(tmp_path / "doubled.obj", vertices, [(0, 1, 2), (0, 1, 2)])
+    flat = write_obj(tmp_path / "flat.obj", [(0, 0, 0), (1, 0, 0), (2, 0, 0)], [(0, 1, 2)])
+    nan = write_obj(tmp_path / "nan.obj", [(0, 0, 0), (1, 0, 0), (0, np.nan, 0)], [(0, 1, 2)])
+    said = {path: crossview("info", path).status for path in (two_pieces, doubled, flat, nan)}
+    assert list(said.values()) == [0, 1, 2, 2]
+    assert crossview("info", doubled, "--repair").status == 0
+    assert crossview("info", doubled, "--json").json["usable"] == "with repair"
+    assert crossview("info", "torus").status == 0
+
+
+def test_messages_hold_no_control_characters_and_are_short(
+    crossview: Crossview, tmp_path: Path
+) -> None:
+    path = tmp_path / "case.json"
+    path.write_text(json.dumps({"surface": "torus", "\x1b[31m\x07" + "k" * 5000: 1}))
+    said = crossview("info", path).err
+    assert said.startswith("crossview: error: ")
+    assert said.rstrip("\n").isprintable()
+    assert "\\u001b[31m\\u0007kkk" in said
+    assert len(said) < 2000
+
+
 def test_info_lists_all_components(crossview: Crossview, two_pieces: Path) -> None:
     found = crossview("info", two_pieces, "--json").json
     assert [piece["genus"] for piece in found["components"]] == [1, 0]

@@ -1,6 +1,7 @@
 """Reading surfaces: every format, its variants, and files that are not what they claim."""
 
 import json
+import os
 import struct
 from collections.abc import Callable
 from pathlib import Path
@@ -119,6 +120,8 @@ FORMATS = {
     "glb": (".glb", lambda path, surface: write_glb(path, [{"mesh": 0}], [surface])),
     "msh 2.2 text": (".msh", write_msh("2.2", binary=False)),
     "msh 2.2 binary": (".msh", write_msh("2.2", binary=True)),
+    "msh 4.0 text": (".msh", write_msh("4.0", binary=False)),
+    "msh 4.0 binary": (".msh", write_msh("4.0", binary=True)),
     "msh 4.1 text": (".msh", write_msh("4.1", binary=False)),
     "msh 4.1 binary": (".msh", write_msh("4.1", binary=True)),
 }
@@ -210,6 +213,44 @@ def test_a_folder_is_no_surface(tmp_path: Path) -> None:
         read_surface(tmp_path / "folder.obj")
 
 
+@pytest.mark.parametrize("suffix", SUFFIXES)
+def test_pipes_and_devices_are_no_surfaces(suffix: str, tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / f"pipe{suffix}")
+    (tmp_path / f"zero{suffix}").symlink_to("/dev/zero")
+    for name in ("pipe", "zero"):
+        with pytest.raises(CrossviewError, match="a pipe or a device"):
+            read_surface(tmp_path / f"{name}{suffix}")
+
+
+@pytest.mark.parametrize("suffix", [".obj", ".off", ".ply", ".gltf", ".msh"])
+@pytest.mark.parametrize("coding", ["utf-8-sig", "utf-16"])
+def test_a_byte_order_mark_changes_nothing(
+    suffix: str, coding: str, ball: TriSurface, tmp_path: Path
+) -> None:
+    path = tmp_path / f"ball{suffix}"
+    name = next(name for name, (ending, _) in FORMATS.items() if ending == suffix)
+    FORMATS[name][1](path, ball)
+    plain = read_surface(path)
+    path.write_bytes(path.read_bytes().decode().encode(coding))
+    marked = read_surface(path)
+    assert np.array_equal(marked.vertices, plain.vertices)
+    assert np.array_equal(marked.faces, plain.faces)
+
+
+@pytest.mark.parametrize("suffix", [".obj", ".off", ".ply", ".msh"])
+def test_numbers_of_400_digits_are_refused(suffix: str, ball: TriSurface, tmp_path: Path) -> None:
+    path = tmp_path / f"ball{suffix}"
+    name = next(name for name, (ending, _) in FORMATS.items() if ending == suffix)
+    FORMATS[name][1](path, ball)
+    words = path.read_bytes().rstrip().split(b"\n")
+    at = -1 if not words[-1].startswith(b"$") else -2
+    words[at] = words[at].rstrip().rpartition(b" ")[0] + b" " + b"1" * 400
+    path.write_bytes(b"\n".join(words) + b"\n")
+    with pytest.raises(CrossviewError, match="malformed") as caught:
+        read_surface(path)
+    assert len(str(caught.value)) < 1000
+
+
 @pytest.mark.parametrize("name", ["x.step", "x"])
 def test_unknown_endings_name_the_known_ones(name: str, tmp_path: Path) -> None:
     with pytest.raises(CrossviewError, match="obj ply stl"):
@@ -295,6 +336,21 @@ def test_off_variants_and_polygons(tmp_path: Path) -> None:
     assert repair(raw.vertices, raw.faces).surface.area == pytest.approx(1)
 
 
+def test_binary_stl_with_more_bytes_than_triangles_or_a_wrong_count(
+    tmp_path: Path, ball: TriSurface
+) -> None:
+    path = tmp_path / "x.stl"
+    mesh_of(ball).save(path)
+    data = path.read_bytes()
+    path.write_bytes(data + b"and more")
+    raw = read_surface(path)
+    assert (len(raw.faces), raw.notes) == (ball.n_faces, ("left out 8 bytes at the end",))
+    path.write_bytes(data[:80] + struct.pack("<I", 7) + data[84:])
+    raw = read_surface(path)
+    assert len(raw.faces) == ball.n_faces
+    assert raw.notes == (f"took all {ball.n_faces} triangles, although 7 are announced",)
+
+
 def test_binary_stl_that_begins_with_solid(tmp_path: Path, ball: TriSurface) -> None:
     path = tmp_path / "x.stl"
     mesh_of(ball).save(path)
@@ -324,7 +380,7 @@ end_header
 1 1 255 0
 0 1 255 0
 7 3 0 1 2 2 0.5 0.5
-7 4 0 2 3 1 0
+7 4 0 1 2 3 0
 """
 
 
@@ -361,6 +417,36 @@ def test_vtk_strips_lines_and_points(tmp_path: Path) -> None:
     raw = read_surface(path)
     assert raw.notes == ("left out 1 line or point",)
     assert repair(raw.vertices, raw.faces).surface.area == pytest.approx(1)
+
+
+def test_vtk_structured_grids_are_surfaces(tmp_path: Path) -> None:
+    x, y = np.meshgrid(np.linspace(0, 1, 4), np.linspace(0, 2, 3))
+    pv.StructuredGrid(x, y, 0 * x).save(tmp_path / "x.vtk")
+    raw = read_surface(tmp_path / "x.vtk")
+    assert repair(raw.vertices, raw.faces).surface.area == pytest.approx(2)
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new"),
+    [
+        ("vtk text", b"POLYGONS 81", b"POLYGONS 900000001"),
+        ("vtk text", b"POINTS 42", b"POINTS 900000000000"),
+        ("vtp text", b'NumberOfPoints="42"', b'NumberOfPoints="1000000000000"'),
+        ("vtp text", b'NumberOfComponents="3"', b'NumberOfComponents="1000000000"'),
+        ("vtu", b'NumberOfCells="80"', b'NumberOfCells="1000000000000"'),
+    ],
+)
+def test_vtk_files_that_announce_too_much_end_nothing(
+    name: str, old: bytes, new: bytes, ball: TriSurface, tmp_path: Path
+) -> None:
+    suffix, write = FORMATS[name]
+    path = tmp_path / f"ball{suffix}"
+    write(path, ball)
+    data = path.read_bytes()
+    assert old in data
+    path.write_bytes(data.replace(old, new))
+    with pytest.raises(CrossviewError, match="cannot read this file"):
+        read_surface(path)
 
 
 def test_vtk_volumes_give_their_outer_surface(tmp_path: Path) -> None:

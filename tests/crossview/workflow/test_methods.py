@@ -218,11 +218,20 @@ class TestSizes:
         assert not (tmp_path / "out").exists()
 
     @pytest.mark.parametrize(
-        ("content", "said"),
-        [(None, "cannot read"), (b"one two", "not an array"), (b"", "0 numbers for 81")],
+        ("name", "content", "said"),
+        [
+            ("sizes.txt", None, "cannot read"),
+            ("sizes.txt", b"one two", "not an array"),
+            ("sizes.txt", b"", "0 numbers for 81"),
+            ("sizes.npy", b"", "not an array"),
+            ("sizes.npy", b"PK\x03\x04" + bytes(30), "not an array"),
+            ("sizes.npy", b"\x93NUMPY\x01\x00", "not an array"),
+            ("sizes.npy", b"\x93NUMPY\x01\x00\x10\x00{'descr': 'f8'}\n", "not an array"),
+        ],
     )
     def test_a_file_that_is_none_is_refused(
         self,
+        name: str,
         content: bytes | None,
         said: str,
         tmp_path: Path,
@@ -230,8 +239,8 @@ class TestSizes:
         case_file: CaseFile,
     ) -> None:
         if content is not None:
-            (tmp_path / "sizes.txt").write_bytes(content)
-        ran = self.square("sizes.txt", tmp_path, crossview, case_file)
+            (tmp_path / name).write_bytes(content)
+        ran = self.square(name, tmp_path, crossview, case_file)
         assert ran.status == 2
         assert said in ran.err
 
