@@ -60,6 +60,9 @@ class Hand:
         return self.state.message.text
 
     def open(self, target: str | Path) -> None:
+        """Open something; changes that are not saved are given up without a question."""
+        if self.state.document is not None:
+            self.window.session.edits.keep()
         self.window.files.open(str(target))
         self.wait()
 
@@ -208,8 +211,9 @@ def app() -> QApplication:
 
 
 @pytest.fixture
-def settings(tmp_path: Path) -> None:
-    """Keep the user's settings out of the tests."""
+def settings(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Keep the user's settings and unsaved work out of the tests."""
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "data"))
     QSettings.setDefaultFormat(QSettings.Format.IniFormat)
     QSettings.setPath(QSettings.Format.IniFormat, QSettings.Scope.UserScope, str(tmp_path / "ini"))
 
@@ -254,6 +258,7 @@ def window(app: QApplication, settings: None, nothing_left: None) -> Iterator[Ma
     made.activateWindow()
     assert QTest.qWaitForWindowActive(made)  # else no shortcut is heard
     yield made
+    made.session.edits.keep()  # else it asks
     made.close()
     made.deleteLater()
 

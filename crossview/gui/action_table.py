@@ -181,8 +181,12 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "Open a surface or a case",
     ),
     ActionSpec(
-        "save", "Save case as…", "File", lambda w: w.files.ask_save(), ("Ctrl+S",), "save",
-        "Write surface, singularities and options as a case file", _open,
+        "save", "Save", "File", lambda w: w.files.save(), ("Ctrl+S",), "save",
+        "Write surface, singularities and options to the case file that is open", _open,
+    ),
+    ActionSpec(
+        "save-as", "Save as…", "File", lambda w: w.files.ask_save(), ("Ctrl+Shift+S",),
+        tip="Write surface, singularities and options as another case file", enabled=_open,
     ),
     ActionSpec(
         "figure", "Figure…", "File", lambda w: w.files.ask_figure(), ("Ctrl+E",), "figure",
@@ -191,7 +195,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ),
     ActionSpec(
         "save-quads", "Save quads as…", "File", lambda w: w.files.ask_save_quads(),
-        ("Ctrl+Shift+S",), "save", "Write the quad mesh as OBJ, VTK, VTU, PLY, GLTF or MSH",
+        ("Ctrl+Alt+S",), "save", "Write the quad mesh as OBJ, VTK, VTU, PLY, GLTF or MSH",
         lambda s: s.made.quads is not None,
     ),
     ActionSpec(

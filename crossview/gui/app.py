@@ -41,6 +41,7 @@ def run(path: str | None) -> int:
     window = MainWindow()
     sys.excepthook = lambda kind, error, trace: window.session.fail(error, "unexpected")
     window.show()
+    window.centre.unsaved.look()
     if path is not None:
         window.files.open(path)
     return app.exec()

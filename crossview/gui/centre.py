@@ -7,13 +7,14 @@ from PySide6.QtWidgets import QStackedWidget, QVBoxLayout, QWidget
 
 from crossview.gui.empty_state import EmptyState
 from crossview.gui.message_bar import MessageBar
+from crossview.gui.unsaved_bar import UnsavedBar
 from crossview.gui.viewport import Viewport
 from crossview.session.session import Session
 from crossview.session.state import SessionState
 
 
 class Centre(QWidget):
-    """The empty state or the viewport, and the message bar floating over them."""
+    """The offer to restore, below it the empty state or the viewport; the message bar floats."""
 
     def __init__(self, session: Session) -> None:
         super().__init__()
@@ -24,7 +25,10 @@ class Centre(QWidget):
         self.stack.addWidget(self.viewport)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self.stack)
+        self.unsaved = UnsavedBar()
+        layout.setSpacing(0)
+        layout.addWidget(self.unsaved)
+        layout.addWidget(self.stack, 1)
         self.message_bar = MessageBar(session, self)
 
     def show_state(self, old: SessionState, new: SessionState) -> None:

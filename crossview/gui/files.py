@@ -9,28 +9,31 @@ from pathlib import Path
 from PySide6.QtWidgets import QFileDialog, QStatusBar, QWidget
 
 from crossview.export.meshes import write_mesh
+from crossview.gui.dialogs import Answer, ask_target, ask_to_save
 from crossview.gui.figure import Figure
 from crossview.gui.recent import remember
+from crossview.gui.recovery import Recovery, Unsaved
 from crossview.io import SUFFIXES
-from crossview.session.document import Document
+from crossview.session.opening import Opening
 from crossview.session.session import Session
+from crossview.session.state import SessionState
 
-FIGURES = "PNG picture (*.png);;SVG drawing (*.svg);;PDF drawing (*.pdf)"
-"""Kinds of figures, as file dialogs want them."""
+CASES = {".json": "Case"}
+"""Words for the suffix of case files."""
 
-MESHES = ";;".join(
-    f"{title} (*{suffix})"
-    for title, suffix in (
-        ("Wavefront OBJ", ".obj"),
-        ("VTK", ".vtk"),
-        ("VTK XML", ".vtu"),
-        ("PLY", ".ply"),
-        ("glTF, as triangles", ".gltf"),
-        ("glTF binary, as triangles", ".glb"),
-        ("Gmsh", ".msh"),
-    )
-)
-"""Kinds of quad meshes, likewise."""
+FIGURES = {".png": "PNG picture", ".svg": "SVG drawing", ".pdf": "PDF drawing"}
+"""Words for suffixes of figures."""
+
+MESHES = {
+    ".obj": "Wavefront OBJ",
+    ".vtk": "VTK",
+    ".vtu": "VTK XML",
+    ".ply": "PLY",
+    ".gltf": "glTF, as triangles",
+    ".glb": "glTF binary, as triangles",
+    ".msh": "Gmsh",
+}
+"""Words for suffixes of quad meshes."""
 
 SAID_MS = 4000
 """How long the status bar says what was written, milliseconds. Chosen."""
@@ -61,24 +64,66 @@ class Files:
         self._figure = figure
         self._parent = parent
         self._status = status
-        self._target = ""
-        self._asked = ""
+        self._source = ""
+        self._recovery = Recovery()
+        self._restored: Unsaved | None = None
+        session.may_leave = self.may_leave
+
+    @property
+    def path(self) -> Path | None:
+        """The case file that the document is of; None: it has none yet."""
+        source = Path(self._source)
+        return source if source.suffix.lower() in CASES and source.is_file() else None
+
+    @property
+    def name(self) -> str:
+        """What the document is called; empty while nothing is open."""
+        document = self._session.state.document
+        if document is None:
+            return ""
+        return document.name if self.path is None else self.path.stem
 
     def open(self, target: str) -> None:
         """Open a file, a gallery case or a built-in surface."""
-        self._asked = target
-        self._session.open(target)
+        self._session.open(Opening(target))
 
-    def opened(self, document: Document) -> None:
+    def restore(self, copy: Unsaved) -> None:
+        """Open a copy of unsaved work."""
+        self._restored = copy
+        self._session.open(Opening(str(copy.case), restores=copy.source))
+
+    def opened(self, opening: Opening) -> None:
         """Remember what was opened; among the recent ones, when it is a file."""
-        self._target = self._asked
-        if Path(self._target).is_file():
-            remember(self._target)
+        self._source = opening.source
+        if Path(self._source).is_file():
+            remember(self._source)
+        if opening.restores is not None and self._restored is not None:
+            self._keep_copy()  # of this window from now on
+            self._restored.forget()
+            self._restored = None
+
+    def show_state(self, old: SessionState, new: SessionState) -> None:
+        """Keep a copy of what is not saved, after each step."""
+        if old.document is not new.document or old.kept is not new.kept:
+            self._session.attempt("copy", self._keep_copy)
 
     def reopen(self, component: str | None = None, repair: bool = False) -> None:
         """Open the same again with other choices."""
-        self._asked = self._target
-        self._session.open(self._target, component, repair)
+        self._session.open(Opening(self._source, component, repair))
+
+    def may_leave(self) -> bool:
+        """Ask what becomes of unsaved changes, if there are any; False: stay."""
+        if not self._session.state.modified:
+            return True
+        answer = ask_to_save(self._parent, self.name)
+        if answer == Answer.Save:
+            self.save()
+            return not self._session.state.modified
+        return answer == Answer.Discard
+
+    def close(self) -> None:
+        """Give up the copy of what is not saved."""
+        self._recovery.clear()
 
     def ask_open(self) -> None:
         """Ask for a surface or a case and open it."""
@@ -92,27 +137,39 @@ class Files:
         if path:
             self.open(path)
 
+    def save(self) -> None:
+        """Write the case to its file, or ask for one where there is none."""
+        if self.path is None:
+            self.ask_save()
+        else:
+            self.save_to(self.path)
+
     def ask_save(self) -> None:
         """Ask where to write the case, and write it."""
-        path, _ = QFileDialog.getSaveFileName(
-            self._parent, "Save the case", self._suggested(".json"), "Cases (*.json)"
-        )
-        if path:
-            self.save(Path(path))
+        path = self._ask("Save the case", ".json", CASES)
+        if path is not None:
+            self.save_to(path)
 
-    def save(self, path: Path) -> None:
-        """Write the present document as a case file."""
+    def save_to(self, path: Path) -> None:
+        """Write the present document as a case file, which it is of from now on."""
         document = self._session.state.document
-        if document is not None:
-            self._session.attempt("save", lambda: document.to_case().save(path))
+        if document is None:
+            return
+
+        def verb() -> None:
+            document.to_case().save(path)
+            self._source = str(path)
+            remember(self._source)
+            self._session.edits.keep()
+            self._status.showMessage(f"Saved {path}", SAID_MS)
+
+        self._session.attempt("save", verb)
 
     def ask_figure(self) -> None:
         """Ask where to write the figure, and write it."""
-        path, _ = QFileDialog.getSaveFileName(
-            self._parent, "Export the figure", self._suggested(".png"), FIGURES
-        )
-        if path:
-            self.export(Path(path))
+        path = self._ask("Export the figure", ".png", FIGURES)
+        if path is not None:
+            self.export(path)
 
     def export(self, path: Path) -> None:
         """Write what is shown, as it is seen, with the settings of the Export panel."""
@@ -122,17 +179,22 @@ class Files:
 
     def ask_save_quads(self) -> None:
         """Ask where to write the quads, and write them."""
-        path, _ = QFileDialog.getSaveFileName(
-            self._parent, "Save the quads", self._suggested(".obj"), MESHES
-        )
-        if path:
-            self.save_quads(Path(path))
+        path = self._ask("Save the quads", ".obj", MESHES)
+        if path is not None:
+            self.save_quads(path)
 
     def save_quads(self, path: Path) -> None:
         """Write the quads that are shown."""
         quads = self._session.state.made.quads
         if quads is not None:
             self._write(partial(write_mesh, quads), path)
+
+    def _keep_copy(self) -> None:
+        state = self._session.state
+        if state.document is not None and state.modified:
+            self._recovery.keep(state.document, self._source)
+        else:
+            self._recovery.clear()
 
     def _write(self, write: Callable[[Path], object], path: Path) -> None:
         """Write a file and say so, or why not."""
@@ -143,10 +205,9 @@ class Files:
 
         self._session.attempt("export", verb)
 
-    def _folder(self) -> str:
-        return str(Path(self._target).parent) if Path(self._target).is_file() else str(Path.home())
+    def _ask(self, title: str, suffix: str, kinds: dict[str, str]) -> Path | None:
+        suggested = Path(self._folder()) / f"{self.name or 'crossview'}{suffix}"
+        return ask_target(self._parent, title, suggested, kinds)
 
-    def _suggested(self, suffix: str) -> str:
-        document = self._session.state.document
-        name = "crossview" if document is None else document.name
-        return str(Path(self._folder()) / f"{name}{suffix}")
+    def _folder(self) -> str:
+        return str(Path(self._source).parent) if Path(self._source).is_file() else str(Path.home())

@@ -33,7 +33,7 @@ from crossview.gui.toolbar import fill_toolbar
 from crossview.gui.valence_box import ValenceBox
 from crossview.gui.viewport import Viewport
 from crossview.gui.window_geometry import WindowGeometry
-from crossview.session.document import Document
+from crossview.session.opening import Opening
 from crossview.session.pictures import figure_view
 from crossview.session.session import Session
 from crossview.session.state import SessionState
@@ -96,6 +96,7 @@ class MainWindow(QMainWindow):
         self.viewport.frame_drawn.connect(self.status.show_frame)
         self.centre.empty.chosen.connect(self.files.open)
         self.centre.empty.open_wanted.connect(self.files.ask_open)
+        self.centre.unsaved.restore.connect(self.files.restore)
         self.docks["Export"].visibilityChanged.connect(self.figure_preview.ask)
         self.viewport.frame_drawn.connect(self.figure_preview.ask)  # the camera may have turned
 
@@ -171,7 +172,11 @@ class MainWindow(QMainWindow):
         self.window_geometry.show()
 
     def closeEvent(self, event: QCloseEvent) -> None:
-        """End the background and free what VTK holds."""
+        """Ask about unsaved changes; end the background and free what VTK holds."""
+        if not self.files.may_leave():
+            event.ignore()
+            return
+        self.files.close()
         self.window_geometry.keep()
         self.session.close()
         self.figure_preview.close()
@@ -194,17 +199,24 @@ class MainWindow(QMainWindow):
             panel.show_state(old, new)
         self.actions_table.show(new)
         self.figure_preview.ask()
-        if old.document is not new.document:
-            name = "" if new.document is None else f"{new.document.name} \u2013 "
-            self.setWindowTitle(f"{name}crossview")
+        self.files.show_state(old, new)
+        if old.document is not new.document or old.kept is not new.kept:
+            self._show_name()
         before = None if old.document is None else old.document.surface
         after = None if new.document is None else new.document.surface
         if before is not after or old.faulty is not new.faulty:
             self.viewport.look_from("auto")
 
-    def _opened(self, document: Document) -> None:
-        self.files.opened(document)
+    def _opened(self, opening: Opening) -> None:
+        self.files.opened(opening)
         self.menus.show_recent()
+        self._show_name()
+        self.centre.unsaved.look()
+
+    def _show_name(self) -> None:
+        name = self.files.name
+        self.setWindowTitle(f"{name}[*] \u2013 crossview" if name else "crossview")
+        self.setWindowModified(self.state.modified)
 
     def _show_menu(self, singularity: int | None, place: QPoint) -> None:
         if singularity is not None:

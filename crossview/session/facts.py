@@ -50,6 +50,8 @@ class Facts:
     ----------
     document : Document or None
         None: nothing is open.
+    kept : Document or None
+        What its file holds; None: nothing of it.
     undo_name, redo_name : str or None
         What undo and redo would do.
     shown : Nothing, Solved, Provisional, Iterating or Moving
@@ -82,6 +84,7 @@ class Facts:
     """
 
     document: Document | None = None
+    kept: Document | None = None
     undo_name: str | None = None
     redo_name: str | None = None
     shown: Shown = dataclasses.field(default_factory=Nothing)
@@ -99,6 +102,11 @@ class Facts:
     dark: bool = False
     message: Message | None = None
     progress: Progress | None = None
+
+    @property
+    def modified(self) -> bool:
+        """Whether closing would lose something."""
+        return self.document is not self.kept
 
     @property
     def drawn(self) -> Drawn:

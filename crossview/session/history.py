@@ -11,7 +11,7 @@ from crossview.session.document import Document
 @dataclass(frozen=True)
 class _Step:
     name: str
-    document: Document | None  # the other side of the step
+    document: Document  # the other side of the step
 
 
 class History:
@@ -41,14 +41,18 @@ class History:
         return self._redo[-1].name if self._redo else None
 
     def open(self, document: Document) -> None:
-        """Make `document` the present one; undo goes back to what was open before."""
-        self._record(f"open {document.name}", document)
+        """Make `document` the present one; undo and redo do not reach beyond it."""
+        self._undo.clear()
+        self._redo.clear()
+        self._document = document
 
     def do(self, command: Command) -> None:
         """Apply `command` to the present document as one named step."""
         if self._document is None:
             raise ValueError("no document is open")
-        self._record(command.name, command.apply(self._document))
+        self._undo.append(_Step(command.name, self._document))
+        self._redo.clear()
+        self._document = command.apply(self._document)
 
     def undo(self) -> None:
         """Take the last step back; nothing happens when there is none."""
@@ -58,13 +62,8 @@ class History:
         """Make the last undone step again; nothing happens when there is none."""
         self._travel(self._redo, self._undo)
 
-    def _record(self, name: str, document: Document) -> None:
-        self._undo.append(_Step(name, self._document))
-        self._redo.clear()
-        self._document = document
-
     def _travel(self, source: list[_Step], target: list[_Step]) -> None:
-        if source:
+        if source and self._document is not None:
             step = source.pop()
             target.append(_Step(step.name, self._document))
             self._document = step.document

@@ -26,11 +26,19 @@ class Opening:
         Which piece to take of a surface in several; None leaves it to the case.
     repair : bool
         Also mend what cannot be mended without changing the surface.
+    restores : str or None
+        Of a copy of unsaved work: what that was opened from.
     """
 
     target: str
     component: str | None = None
     repair: bool = False
+    restores: str | None = None
+
+    @property
+    def source(self) -> str:
+        """What the user would name."""
+        return self.target if self.restores is None else self.restores
 
 
 def open_target(opening: Opening) -> Generator[Progress, None, Document]:

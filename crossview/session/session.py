@@ -39,8 +39,10 @@ class Session(Store):
 
     def __init__(self, loop: Loop) -> None:
         super().__init__()
-        self.opened: list[Callable[[Document], object]] = []
-        """Told when a document was opened by the user, not brought back by undo."""
+        self.opened: list[Callable[[Opening], object]] = []
+        """Told when a document has been opened."""
+        self.may_leave: Callable[[], bool] = lambda: True
+        """Asked before a document gives way to another."""
         self.solving = Solving(self, loop)
         self.edits = Edits(self, self.solving)
         self.looks = Looks(self, self.solving)
@@ -62,19 +64,16 @@ class Session(Store):
         self.guide_lines.close()
         self.solving.close()
 
-    def open(self, target: str, component: str | None = None, repair: bool = False) -> None:
-        """Open a file, gallery case or built-in surface in the background.
+    def open(self, opening: Opening) -> None:
+        """Open a file, gallery case or built-in surface in the background."""
+        if not self.may_leave():
+            return
 
-        Parameters
-        ----------
-        target : str
-            As of `Opening`.
-        component : str, optional
-            Which piece to take of a surface in several.
-        repair : bool
-            Also mend what cannot be mended without changing the surface.
-        """
-        self._open(Opening(target, component, repair))
+        def failed(error: Exception) -> None:
+            self.fail(error, "open", opening)
+            self.solving.resume()
+
+        self.solving.run(partial(open_target, opening), partial(self._show, opening), failed)
 
     def carry_out(self, remedy: Remedy, tried: Opening | MeshOptions | None = None) -> None:
         """Do what a button of a message or of the validity panel says.
@@ -87,9 +86,9 @@ class Session(Store):
         """
         match remedy:
             case RepairSurface() if isinstance(tried, Opening):
-                self._open(replace(tried, repair=True))
+                self.open(replace(tried, repair=True))
             case TakeLargest() if isinstance(tried, Opening):
-                self._open(replace(tried, component="largest"))
+                self.open(replace(tried, component="largest"))
             case ShowWhere(elements=elements) if isinstance(tried, Opening):
                 self._locate(tried.target, elements)
             case MakeValid():
@@ -99,18 +98,11 @@ class Session(Store):
         if isinstance(tried, MeshOptions):
             self.quad_making.wait_for(tried)
 
-    def _open(self, opening: Opening) -> None:
-        def failed(error: Exception) -> None:
-            self.fail(error, "open", opening)
-            self.solving.resume()
-
-        self.solving.run(partial(open_target, opening), self._show, failed)
-
-    def _show(self, document: Document) -> None:
+    def _show(self, opening: Opening, document: Document) -> None:
         self.update(self.state.unsaid("open", "save", "export"))
-        self.edits.open(document)
+        self.edits.open(document, kept=opening.restores is None)
         for tell in tuple(self.opened):
-            tell(document)
+            tell(opening)
 
     def _locate(self, target: str, elements: Elements) -> None:
         """Show what could not be opened, the offending elements pointed out."""

@@ -45,13 +45,13 @@ class SessionState(Facts):
     """The state of a session; each method returns the state after something has happened."""
 
     def document_changed(
-        self, document: Document | None, undo_name: str | None, redo_name: str | None
+        self, document: Document, undo_name: str | None, redo_name: str | None
     ) -> SessionState:
         """Return the state with another document, without what does not fit it."""
         shown: Shown = self.drawn
         tool, focus = self.tool, Focus()
         before = None if self.document is None else self.document.surface
-        if document is None or document.surface is not before:
+        if document.surface is not before:
             shown = Nothing()
             tool = SelectTool() if isinstance(tool, MarkTool) else tool
         else:

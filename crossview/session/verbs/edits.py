@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from crossview.session.commands import (
     AddSingularities,
     ChangeValence,
@@ -33,25 +35,30 @@ class Edits:
         self._solving = solving
         self._history = History()
 
-    def open(self, document: Document) -> None:
-        """Make another document the present one."""
+    def open(self, document: Document, kept: bool = True) -> None:
+        """Make another document the present one; `kept`: a file holds it."""
         self._history.open(document)
-        self._changed()
+        self._changed(document if kept else None)
+
+    def keep(self) -> None:
+        """Tell that a file holds the present document."""
+        state = self._store.state
+        self._store.update(replace(state, kept=state.document))
 
     def do(self, command: Command) -> None:
         """Make one undoable change."""
         self._history.do(command)
-        self._changed()
+        self._changed(self._store.state.kept)
 
     def undo(self) -> None:
         """Take the last step back."""
         self._history.undo()
-        self._changed()
+        self._changed(self._store.state.kept)
 
     def redo(self) -> None:
         """Make the last undone step again."""
         self._history.redo()
-        self._changed()
+        self._changed(self._store.state.kept)
 
     def add(self, point: SurfacePoint, valence: int) -> None:
         """Add a singularity at `point` of the shown surface and select it."""
@@ -88,10 +95,11 @@ class Edits:
     def _valence(self, index: int) -> int:
         return self._store.state.singularities[index].valence
 
-    def _changed(self) -> None:
+    def _changed(self, kept: Document | None) -> None:
         """Bring everything in line with the present document of the history."""
         present, state = self._history, self._store.state
-        self._store.update(
-            state.document_changed(present.document, present.undo_name, present.redo_name)
-        )
+        if present.document is None:  # nothing to undo
+            return
+        changed = state.document_changed(present.document, present.undo_name, present.redo_name)
+        self._store.update(replace(changed, kept=kept))
         self._solving.follow()

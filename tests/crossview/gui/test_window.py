@@ -243,7 +243,7 @@ def test_a_saved_case_is_the_document(hand: Hand, tmp_path: Path) -> None:
     hand.click(hand.place((0.1, 0.05, 0.0)))
     hand.wait()
     path = tmp_path / "mine.json"
-    hand.window.files.save(path)
+    hand.window.files.save_to(path)
     assert [s.valence for s in Case.load(path).singularities] == [3, 3, 3, 3, 5]
     hand.open(str(path))
     assert [s.valence for s in hand.state.singularities] == [3, 3, 3, 3, 5]

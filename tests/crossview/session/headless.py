@@ -7,6 +7,7 @@ from typing import TypeVar
 
 import numpy as np
 
+from crossview.session.opening import Opening
 from crossview.session.session import Session
 from crossview.session.state import SessionState
 from solvers.surface import FloatArray, SurfacePoint
@@ -90,7 +91,7 @@ class Headless:
             assert time.monotonic() < end, f"still waiting; message: {self.state.message}"
 
     def open(self, target: str) -> None:
-        self.session.open(target)
+        self.session.open(Opening(target))
         self.wait()
 
     def once(self, wanted: Callable[[SessionState], bool], do: Callable[[], None]) -> None:

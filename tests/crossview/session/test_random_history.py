@@ -47,7 +47,7 @@ class Editing(RuleBasedStateMachine):
     def __init__(self) -> None:
         super().__init__()
         self.history = History()
-        self.documents: list[Document | None] = [None]
+        self.documents: list[Document | None] = []
         self.names: list[str] = []
         self.at = 0
 
@@ -79,8 +79,9 @@ class Editing(RuleBasedStateMachine):
 
     @rule(document=st.sampled_from(OPENED))
     def opens(self, document: Document) -> None:
+        """Undo and redo do not reach beyond it."""
         self.history.open(document)
-        self.went(f"open {document.name}")
+        self.documents, self.names, self.at = [document], [], 0
 
     @rule(added=SEVERAL)
     @precondition(lambda self: self.history.document is not None)
@@ -151,7 +152,7 @@ class Editing(RuleBasedStateMachine):
         for _ in range(self.at):
             self.undoes(1)
             self.is_where_the_list_says()
-        assert self.history.document is None
+        assert self.history.document is self.documents[0]
         for _ in self.names:
             self.redoes(1)
             self.is_where_the_list_says()

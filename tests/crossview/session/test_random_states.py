@@ -88,7 +88,6 @@ def event(name: str, number: int, yes: bool, also: bool) -> Event:
     there = happenings()
     events: dict[str, Event] = {
         "opened": lambda s: s.document_changed(there.documents[number], "edit", None),
-        "closed": lambda s: s.document_changed(None, None, None),
         "solved": lambda s: s.solution_found(there.solved[number % 2]),
         "iterated": lambda s: s.progressed(there.steps[number % 2]),
         "moved": lambda s: waypoint(s, yes, also),
@@ -106,7 +105,7 @@ def event(name: str, number: int, yes: bool, also: bool) -> Event:
 
 
 NAMES = (
-    "opened", "closed", "solved", "iterated", "moved", "progressed", "ended", "tried", "let go",
+    "opened", "solved", "iterated", "moved", "progressed", "ended", "tried", "let go",
     "put back", "failed", "prepared", "cut", "made",
 )  # fmt: skip
 EVENTS = st.tuples(st.sampled_from(NAMES), st.integers(0, 2), st.booleans(), st.booleans())
@@ -119,9 +118,6 @@ def test_what_is_shown_together_belongs_together(
 ) -> None:
     state = SessionState().document_changed(happenings().documents[0], "open", None)
     for name, number, yes, also in happened:
-        # no answer comes for a surface that is closed: the background has forgotten it
-        if state.document is None and name != "opened":
-            continue
         before, said = state, (state.field, state.base, state.singularities)
         state = event(name, number, yes, also)(state)
         assert (before.field, before.base, before.singularities) == said  # frozen

@@ -11,8 +11,8 @@ import pytest
 
 from crossview.cases.gallery import path_of
 from crossview.cases.model import Case
-from crossview.session.document import Document
 from crossview.session.message import ShowWhere
+from crossview.session.opening import Opening
 from crossview.session.shown import Nothing, Provisional, Solved
 from crossview.session.state import SessionState
 from crossview.workflow.quads import MeshOptions
@@ -48,14 +48,14 @@ def test_it_needs_neither_qt_nor_vtk() -> None:
 
 
 def test_opening_solves_and_tells(held: Headless) -> None:
-    told: list[Document] = []
+    told: list[Opening] = []
     held.session.opened.append(told.append)
     held.open("disk-4")
-    assert told == [held.state.document]
+    assert [opening.target for opening in told] == ["disk-4"]
     assert held.state.solved
     assert isinstance(held.state.shown, Solved)
     assert held.state.field is held.state.solution.field
-    assert held.state.undo_name == "open disk-4"
+    assert held.state.undo_name is None
     assert held.state.separatrices is not None  # their layer is shown
     assert held.state.progress is None
     assert any(state.progress is not None for state in held.seen)
@@ -269,7 +269,7 @@ def test_indices_that_do_not_add_up_are_refused_a_field_and_mended(held: Headles
     held.session.edits.undo()
     held.wait()
     assert held.state.solved
-    assert held.state.undo_name == "open disk-4"
+    assert held.state.undo_name is None
     held.session.edits.redo()
     held.wait()
     assert held.state.field is None

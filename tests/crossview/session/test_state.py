@@ -217,9 +217,6 @@ def test_another_surface_takes_all_that_was_of_this_one(solved: SessionState) ->
         assert state.base is None
         assert state.focus == Focus()
         assert state.tool == kept
-    closed = focused.document_changed(None, None, "open near")
-    assert closed.shown_surface is None
-    assert closed.singularities == ()
 
 
 def test_a_message_goes_with_its_cause(solved: SessionState, document: Document) -> None:
