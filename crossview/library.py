@@ -359,7 +359,6 @@ def quads(
     target_quads: int | None = None,
     *,
     edge_length: float | None = None,
-    collapse: bool = False,
     smooth: bool = True,
     progress: Watch = None,
 ) -> QuadMesh:
@@ -373,8 +372,6 @@ def quads(
         About how many; 5 000 if no edge length is given either.
     edge_length : float, optional
         Mean length of their edges.
-    collapse : bool, optional
-        Whether arcs of the layout may vanish, for coarse meshes of few patches.
     smooth : bool, optional
         Whether vertices slide along the surface to better quads.
     progress : callable, optional
@@ -389,7 +386,7 @@ def quads(
     ------
     CrossviewError
         Both a number and a length are given, they do not fit the surface, a singularity has
-        valence 1, or no numbers of quads were found in time.
+        valence 1, or no numbers of quads were found.
 
     Examples
     --------
@@ -401,7 +398,7 @@ def quads(
     {3: 4}
     """
     _require("layout", layout, QuadLayout)
-    options = meshes.MeshOptions(edge_length, target_quads, collapse, smooth)
+    options = meshes.MeshOptions(edge_length, target_quads, smooth)
     return run(meshes.quads(layout, options), progress)
 
 

@@ -98,13 +98,10 @@ class QuadOptions:
         Mean length of the quads' edges.
     target_quads
         About how many quads; 5000 if neither is given.
-    collapse
-        Let parts of the layout vanish where that gives a coarser mesh.
     """
 
     edge_length: float | None = None
     target_quads: int | None = None
-    collapse: Flag = False
 
     def wanted(self, quads: bool, advice: str) -> MeshOptions | None:
         """Return how the quads are to be; None if none are wanted.
@@ -122,8 +119,8 @@ class QuadOptions:
             None are wanted and it is said how they should be, or something is impossible.
         """
         if quads:
-            return MeshOptions(self.edge_length, self.target_quads, self.collapse)
+            return MeshOptions(self.edge_length, self.target_quads)
         for name, given in vars(self).items():
-            if given not in (None, False):
+            if given is not None:
                 raise CrossviewError(f"--{name.replace('_', '-')} is about quads", "", advice)
         return None

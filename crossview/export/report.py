@@ -114,9 +114,19 @@ def quads_summary(layout: QuadLayout, quads: QuadMesh) -> str:
     patches = f"{layout.patches} {'patch' if layout.patches == 1 else 'patches'}, "
     patches += "conforming" if layout.conforming else f"{len(layout.t_junctions)} T-junctions"
     return (
-        f"{quads.n_quads} quads in {patches}; {counted(irregular, 'irregular vertex')}, "
+        f"{quads.n_quads} quads{_missed(quads)} in {patches}; "
+        f"{counted(irregular, 'irregular vertex')}, "
         f"scaled Jacobian at least {quality.min():.2f}, mean {quality.mean():.3f}{warning}"
     )
+
+
+def _missed(quads: QuadMesh) -> str:
+    """By how much the wanted number is missed, and the least there can be, if it is missed."""
+    chosen = quads.quantization
+    if chosen is None or not chosen.missed:
+        return ""
+    least = "" if chosen.n_fewest is None else f", about {chosen.n_fewest} is the least possible"
+    return f" ({chosen.n_wanted} wanted{least})"
 
 
 def _inverted(quads: QuadMesh) -> str:
@@ -266,10 +276,12 @@ def _layout(solution: Solution, layout: QuadLayout | None) -> dict[str, Any]:
 
 def _quads(mesh: QuadMesh) -> dict[str, Any]:
     """Counts and quality of a quad mesh; valences are written as text, for they are keys."""
-    quality = mesh.scaled_jacobian
+    quality, chosen = mesh.scaled_jacobian, mesh.quantization
     return {
         "vertices": mesh.n_vertices,
         "quads": mesh.n_quads,
+        "wanted": None if chosen is None else chosen.n_wanted,
+        "least_possible": None if chosen is None else chosen.n_fewest,
         "non_quads": 0,
         "patches": len(np.unique(mesh.patch)),
         "irregular": {str(valence): count for valence, count in mesh.irregular.items()},

@@ -6,8 +6,6 @@ import time
 from collections.abc import Generator, Iterable
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from crossview.cases.model import PlacedSingularity
 from crossview.workflow.layout import layout
 from crossview.workflow.solution import Solution
@@ -15,7 +13,7 @@ from solvers.errors import CrossviewError
 from solvers.layouts import QuadLayout
 from solvers.number_checks import real_number, whole_number
 from solvers.progress import Progress, between
-from solvers.quads import MOST_QUADS, QuadMesh, fill, quantize, quantize_to, smooth
+from solvers.quads import MOST_QUADS, QuadMesh, fill, quantize_to, smooth
 from solvers.singularities import Singularity, SplitOne
 from solvers.surface import TriSurface
 
@@ -33,8 +31,6 @@ class MeshOptions:
         Mean length of their edges: the surface's area is divided by its square.
     target_quads : int, optional
         About how many; 5 000 if neither is given.
-    collapse : bool
-        Whether arcs of the layout may vanish, for coarse meshes of few patches.
     smooth : bool
         Whether vertices slide along the surface to better quads.
 
@@ -46,7 +42,6 @@ class MeshOptions:
 
     edge_length: float | None = None
     target_quads: int | None = None
-    collapse: bool = False
     smooth: bool = True
 
     def __post_init__(self) -> None:
@@ -98,20 +93,14 @@ def quads(layout: QuadLayout, options: MeshOptions) -> Generator[Progress, None,
     ------
     CrossviewError
         The options do not fit the surface, a singularity has valence 1, or no numbers of quads were
-        found in time.
+        found.
     """
-    surface, tmesh = layout.surface, layout.tmesh
-    number = options.number_on(surface)
+    number = options.number_on(layout.surface)
     require_closing(layout.integrated.field.singularities)
     yield Progress("choosing numbers of quads", 0.0)
-    if options.edge_length is None:
-        chosen = quantize_to(tmesh, number, collapse=options.collapse)
-    else:
-        # the map is not as large as the surface
-        scale = np.sqrt(tmesh.area / surface.area)
-        chosen = quantize(tmesh, options.edge_length * scale, collapse=options.collapse)
+    chosen = quantize_to(layout.tmesh, number)
     yield Progress("filling the patches", 0.3)
-    filled = fill(layout, chosen.counts)
+    filled = replace(fill(layout, chosen.counts), quantization=chosen)
     if options.smooth:
         yield Progress("smoothing", 0.5)
         curves = layout.integrated.aligned.features.curves

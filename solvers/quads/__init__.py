@@ -5,13 +5,20 @@ from __future__ import annotations
 from solvers.quads.corners import scaled_jacobian
 from solvers.quads.filling import fill
 from solvers.quads.quadmesh import QuadMesh
-from solvers.quads.quantization import MOST_QUADS, Quantization, quantize, quantize_to
+from solvers.quads.quantization import (
+    MOST_QUADS,
+    Quantization,
+    fewest_quads,
+    quantize,
+    quantize_to,
+)
 from solvers.quads.smoothing import smooth
 
 __all__ = [
     "MOST_QUADS",
     "QuadMesh",
     "Quantization",
+    "fewest_quads",
     "fill",
     "quantize",
     "quantize_to",

@@ -45,7 +45,7 @@ MOST_CUTS = 50
 
 
 @dataclass(frozen=True, eq=False)
-class CuttingPlane:
+class Condition:
     """A condition: arcs that need so many edges together.
 
     Parameters
@@ -60,24 +60,22 @@ class CuttingPlane:
     least: int
 
 
-def least_counts(tmesh: TMesh, *, collapse: bool) -> IntArray:
-    """Return the fewest edges (A,) of each arc: 1, or 0 where nothing speaks against it at sight.
+def least_counts(tmesh: TMesh) -> IntArray:
+    """Return the fewest edges (A,) of each arc: 0 where nothing speaks against it at sight.
 
     Parameters
     ----------
     tmesh : TMesh
         The rectangles.
-    collapse : bool
-        Whether arcs may do without edges.
     """
     loop = tmesh.arcs[:, 0] == tmesh.arcs[:, 1]
     held = tmesh.critical[tmesh.arcs]
     # A boundary that a singularity is not on is held against it, too.
     held |= tmesh.node_on_boundary[tmesh.arcs] & ~tmesh.arc_on_boundary[:, None]
-    return np.where(loop, 3, 1 if not collapse else held.all(axis=1).astype(np.int64))
+    return np.where(loop, 3, held.all(axis=1).astype(np.int64))
 
 
-def broken(tmesh: TMesh, counts: IntArray) -> list[CuttingPlane]:
+def broken(tmesh: TMesh, counts: IntArray) -> list[Condition]:
     """Return conditions that counts break because of what they merge; none if all is well.
 
     Sufficiently many edges along every arc meet all of them, and 1 along every arc those that keep
@@ -95,12 +93,12 @@ def broken(tmesh: TMesh, counts: IntArray) -> list[CuttingPlane]:
     return found or _doubles(Numbering(tmesh, counts), vertices, edges)
 
 
-def _torn(points: Merged) -> list[CuttingPlane]:
+def _torn(points: Merged) -> list[Condition]:
     """Return a condition for each piece that would change the topology."""
-    return [CuttingPlane(points.arcs(points.within(np.array([k]))), 1) for k in points.torn]
+    return [Condition(points.arcs(points.within(np.array([k]))), 1) for k in points.torn]
 
 
-def _unseparated(tmesh: TMesh, vertices: Merged) -> list[CuttingPlane]:
+def _unseparated(tmesh: TMesh, vertices: Merged) -> list[Condition]:
     """Return a condition for each way between critical nodes, or from one to the boundary."""
     critical = np.flatnonzero(tmesh.critical)
     crowd = vertices.holding(critical)
@@ -120,11 +118,11 @@ def _unseparated(tmesh: TMesh, vertices: Merged) -> list[CuttingPlane]:
             ends += order[vertices.on_boundary[order]].tolist()[:1]
         for end in ends:
             path = np.array(walk_back(before, end))
-            found.append(CuttingPlane(vertices.arcs(graph.halfedges(path[:-1], path[1:])), 1))
+            found.append(Condition(vertices.arcs(graph.halfedges(path[:-1], path[1:])), 1))
     return found
 
 
-def _doubles(numbers: Numbering, vertices: Merged, edges: Merged) -> list[CuttingPlane]:
+def _doubles(numbers: Numbering, vertices: Merged, edges: Merged) -> list[Condition]:
     """Return a condition for each pair of edges with the same ends, and each with one end twice."""
     tmesh, counts = numbers.tmesh, numbers.counts
     pairs, arc = numbers.edges()
@@ -144,5 +142,5 @@ def _doubles(numbers: Numbering, vertices: Merged, edges: Merged) -> list[Cuttin
         members = np.flatnonzero(group == k)
         joining = vertices.arcs(vertices.within(piece[members[0]]))
         involved = np.union1d(joining, causes.arcs(why[members]))
-        found.append(CuttingPlane(involved, int(counts[involved].sum()) + 1))
+        found.append(Condition(involved, int(counts[involved].sum()) + 1))
     return found

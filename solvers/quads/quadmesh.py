@@ -13,6 +13,7 @@ from solvers.errors import CrossviewError
 from solvers.frozen import freeze_arrays
 from solvers.quads.corners import TangentPlanes, scaled_jacobian
 from solvers.quads.projection import Projection
+from solvers.quads.quantization import Quantization
 from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface
 
@@ -39,6 +40,8 @@ class QuadMesh:
         Vertices that have their place: singularities and corners.
     boundary_loop : (n,) int array
         Number of the boundary loop of the surface each vertex lies on, or -1.
+    quantization : Quantization, optional
+        The numbers of edges that made it, where they were chosen for a number of quads.
 
     Examples
     --------
@@ -69,6 +72,7 @@ class QuadMesh:
     barycentric: FloatArray
     fixed: BoolArray
     boundary_loop: IntArray
+    quantization: Quantization | None = None
 
     def __post_init__(self) -> None:
         freeze_arrays(self)

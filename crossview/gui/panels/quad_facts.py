@@ -52,7 +52,7 @@ def quad_facts(layout: QuadLayout, mesh: QuadMesh, solution: Solution) -> QuadFa
         verdict = "All quads, irregular exactly where imposed."
     rows = {
         "Vertices": grouped(mesh.n_vertices),
-        "Quads": grouped(mesh.n_quads),
+        "Quads": _number(mesh),
         "Irregular": _beside(mesh.irregular, wanted, lambda n: f"valence {n}"),
         "Corners": _beside(mesh.corners, corners, lambda n: count(n, "quad")),
         "Euler": f"{mesh.euler_characteristic} of {euler}".replace("-", MINUS),
@@ -62,6 +62,15 @@ def quad_facts(layout: QuadLayout, mesh: QuadMesh, solution: Solution) -> QuadFa
         "Flips": grouped(layout.inverted) + (f", {layout.mended} mended" if layout.mended else ""),
     }
     return QuadFacts(good, verdict, rows)
+
+
+def _number(mesh: QuadMesh) -> str:
+    """How many quads there are; if that is not what was wanted, that and the least possible."""
+    chosen, said = mesh.quantization, grouped(mesh.n_quads)
+    if chosen is not None and chosen.missed:
+        said += f"\n{grouped(chosen.n_wanted or 0)} wanted"
+        said += "" if chosen.n_fewest is None else f", least about {grouped(chosen.n_fewest)}"
+    return said
 
 
 def _beside(found: Mapping[int, int], wanted: Mapping[int, int], kind: Callable[[int], str]) -> str:

@@ -66,8 +66,6 @@ class QuadsPanel(QScrollArea):
             self.boxes.addWidget(box)
         self.boxes.setMaximumHeight(self.count_box.sizeHint().height())
         self.unit.currentIndexChanged.connect(self.boxes.setCurrentIndex)
-        self.collapse = QCheckBox("Collapse arcs")
-        self.collapse.setToolTip("What is nearly in line comes into line, for coarse quads")
         self.smooth = QCheckBox("Smooth")
         self.smooth.setToolTip("Let the vertices slide on the surface to better quads")
         self.smooth.setChecked(True)
@@ -94,7 +92,6 @@ class QuadsPanel(QScrollArea):
         return MeshOptions(
             edge_length=None if by_count else self.length_box.value(),
             target_quads=self.count_box.value() if by_count else None,
-            collapse=self.collapse.isChecked(),
             smooth=self.smooth.isChecked(),
         )
 
@@ -139,11 +136,7 @@ class QuadsPanel(QScrollArea):
         wanted.addWidget(self.unit)
         wanted.addWidget(self.boxes, 1)
         layout.addLayout(wanted)
-        ways = QHBoxLayout()
-        ways.setSpacing(6)
-        ways.addWidget(self.smooth)
-        ways.addWidget(self.collapse)
-        layout.addLayout(ways)
+        layout.addWidget(self.smooth)
         layout.addWidget(self.button)
         said = QHBoxLayout()
         said.setSpacing(8)

@@ -13,8 +13,8 @@ TAKEN = {
     "complete": SURFACE,
     "make-valid": SURFACE,
     "natural": (*SURFACE, "features"),
-    "solve": (*SURFACE, "features", "method", "edge-length", "target-quads", "collapse"),
-    "render": (*SURFACE, "features", "method", "edge-length", "target-quads", "collapse"),
+    "solve": (*SURFACE, "features", "method", "edge-length", "target-quads"),
+    "render": (*SURFACE, "features", "method", "edge-length", "target-quads"),
 }
 
 

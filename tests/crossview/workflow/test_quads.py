@@ -120,24 +120,27 @@ def test_the_edge_length_is_that_on_the_surface(meshed: Callable[..., Any]) -> N
 def test_a_coarse_mesh_of_fewer_patches_keeps_its_singularities(
     crossview: Crossview, tmp_path: Path
 ) -> None:
-    asked = [
-        "solve",
-        "closed-H",
-        "-o",
-        tmp_path / "out",
-        "--quads",
-        "--target-quads",
-        200,
-        "--json",
-    ]
-    fine, coarse = (crossview(*asked, *more).json for more in ((), ("--collapse",)))
-    assert fine["layout"] == coarse["layout"]
-    assert fine["layout"]["t_junctions"] > 0
-    assert fine["quads"]["patches"] == fine["layout"]["patches"] > coarse["quads"]["patches"]
-    for quads in (fine["quads"], coarse["quads"]):
-        assert quads["irregular"] == {"3": 10, "6": 1}
-        assert quads["euler_characteristic"] == 2
-        assert quads["inverted"] == 0
+    asked = ["solve", "closed-H", "-o", tmp_path / "out", "--quads", "--target-quads", 200]
+    report = crossview(*asked, "--json").json
+    quads = report["quads"]
+    assert report["layout"]["t_junctions"] > 0
+    assert report["layout"]["patches"] > quads["patches"]
+    assert quads["irregular"] == {"3": 10, "6": 1}
+    assert quads["euler_characteristic"] == 2
+    assert quads["inverted"] == 0
+    assert quads["wanted"] == 200
+    assert quads["least_possible"] is None
+    assert abs(quads["quads"] - 200) <= 10
+
+
+def test_a_number_that_is_too_small_is_told_with_the_least_possible(
+    crossview: Crossview, tmp_path: Path
+) -> None:
+    asked = ["solve", "sphere-cube", "-o", tmp_path / "out", "--quads", "--target-quads", 2]
+    ran = crossview(*asked)
+    assert "6 quads (2 wanted, about 6 is the least possible) in 6 patches" in ran.out
+    quads = json.loads((tmp_path / "out" / "report.json").read_text())["quads"]
+    assert (quads["quads"], quads["wanted"], quads["least_possible"]) == (6, 2, 6)
 
 
 @pytest.mark.parametrize("name", ["sphere-cube", "sphere-anticube"])
@@ -287,7 +290,6 @@ def test_of_all_components_the_one_that_misses_its_budget_is_named(
     [
         (["--edge-length", 0.1], "--edge-length is about quads: add --quads"),
         (["--target-quads", 9], "--target-quads is about quads: add --quads"),
-        (["--collapse"], "--collapse is about quads: add --quads"),
         (["--formats", "msh"], "--formats is about quads: add --quads"),
         (["--quads", "--formats", "msh,stl"], '".stl" files (quads.stl): use one of obj vtk'),
         (["--quads", "--formats", ""], 'to "" files'),

@@ -78,38 +78,20 @@ def test_what_is_broken_is_told_and_nothing_else(name: str) -> None:
 
 @pytest.mark.parametrize("name", LAYOUTS)
 @pytest.mark.parametrize("edge_length", [0.3, 1.0, 2.5, 30.0])
-def test_collapsed_layouts_are_meshes_with_the_same_singularities(
-    name: str, edge_length: float
-) -> None:
+def test_numbers_make_meshes_with_the_same_singularities(name: str, edge_length: float) -> None:
     t, surface = LAYOUTS[name]
-    found, full = quantize(t, edge_length, collapse=True), quantize(t, edge_length)
-    assert found.optimal
+    found = quantize(t, edge_length)
     assert is_whole(t, found.counts, surface)
-    assert is_whole(t, full.counts, surface)
     sides = t.side_totals(found.counts.astype(float))
     assert (sides[:, :2] == sides[:, 2:]).all()
-    assert found.deviation <= full.deviation + 1e-9
 
 
-def test_collapse_makes_coarse_meshes_coarser() -> None:
-    t, _ = LAYOUTS["sheet 3"]
-    coarse = quantize_to(t, 1, collapse=True)
-    assert coarse.n_quads < 0.5 * quantize_to(t, 1).n_quads
+def test_coarse_meshes_let_arcs_vanish() -> None:
+    t, surface = LAYOUTS["sheet 3"]
+    coarse = quantize_to(t, 1)
+    assert coarse.n_quads < t.n_rectangles
     assert (coarse.counts == 0).any()
-
-
-@pytest.mark.parametrize("name", LAYOUTS)
-def test_layouts_collapsed_in_haste_are_meshes_too(
-    name: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Without time for the nearest counts."""
-    t, surface = LAYOUTS[name]
-    monkeypatch.setattr("solvers.quads.cutting_planes.MOST_ROUNDS", 0)
-    for edge_length in (0.3, 2.5, 30.0):
-        found = quantize(t, edge_length, collapse=True)
-        assert not found.optimal
-        assert is_whole(t, found.counts, surface)
-        assert found.n_quads <= 2 * quantize(t, edge_length).n_quads
+    assert is_whole(t, coarse.counts, surface)
 
 
 def test_singularities_that_nearly_coincide_stay_apart() -> None:
@@ -126,7 +108,7 @@ def test_singularities_that_nearly_coincide_stay_apart() -> None:
         critical=[(3, 2), (3.01, 2)],
     )
     thin = np.flatnonzero(t.lengths < 0.1)
-    assert (quantize(t, 1.0, collapse=True).counts[thin] == 1).all()
+    assert (quantize(t, 1.0).counts[thin] == 1).all()
     alone = tiling(
         [
             (0, 0, 3, 2),
@@ -138,7 +120,7 @@ def test_singularities_that_nearly_coincide_stay_apart() -> None:
         ],
         critical=[(3, 2)],
     )
-    assert (quantize(alone, 1.0, collapse=True).counts[thin] == 0).all()
+    assert (quantize(alone, 1.0).counts[thin] == 0).all()
 
 
 def test_singularities_on_two_sides_of_a_thin_strip_may_slide_past_each_other() -> None:
@@ -147,6 +129,6 @@ def test_singularities_on_two_sides_of_a_thin_strip_may_slide_past_each_other() 
         [(0, 0, 3, 2), (3, 0, 6, 2), (0, 2, 6, 2.01), (0, 2.01, 1, 4), (1, 2.01, 6, 4)],
         critical=[(3, 2), (1, 2.01)],
     )
-    found = quantize(t, 0.7, collapse=True)
+    found = quantize(t, 0.7)
     assert (found.counts[t.lengths < 0.1] == 0).all()
     assert is_whole(t, found.counts, "square")

@@ -67,7 +67,7 @@ def test_the_boundary_keeps_to_its_loops() -> None:
 
 def test_arcs_without_length_vanish() -> None:
     layout = layout_of("winding sphere")
-    counts = quantize_to(layout.tmesh, 300, collapse=True).counts
+    counts = quantize_to(layout.tmesh, 300).counts
     assert (counts == 0).any()
     mesh = fill(layout, counts)
     mesh.check()
