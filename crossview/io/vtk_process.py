@@ -45,9 +45,14 @@ def limit(memory: int, seconds: int) -> None:
         import resource
     except ImportError:  # on Windows only the time is limited, by the caller
         return
-    resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
-    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    for what, most in (
+        (resource.RLIMIT_AS, memory),
+        (resource.RLIMIT_CPU, seconds),
+        (resource.RLIMIT_CORE, 0),
+    ):
+        hard = resource.getrlimit(what)[1]  # another limit, which may be lower, is kept
+        least = most if hard == resource.RLIM_INFINITY else min(most, hard)
+        resource.setrlimit(what, (least, hard))
 
 
 def surface(reader: Any, path: str) -> tuple[list[npt.NDArray[Any]], list[str]]:
