@@ -264,7 +264,6 @@ def _layout(solution: Solution, layout: QuadLayout | None) -> dict[str, Any]:
     return {
         "separatrices": int(np.count_nonzero(own)),
         "t_junctions": len(curves.t_junctions),
-        "limit_cycles": curves.limit_cycles,
         "misaligned_boundaries": len(misaligned_boundaries(solution)[0]),
         "added_curves": int(np.count_nonzero(~own)),
         "patches": None if layout is None else layout.patches,

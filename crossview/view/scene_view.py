@@ -164,7 +164,7 @@ class SceneView:
         Offending elements to point out.
     separatrices : Polylines, optional
     t_junctions : (k, 3) float, optional
-        Where a limit cycle is cut: a "T" each.
+        Where a curve is cut: a "T" each.
     misaligned : (k, 3) float, optional
         On boundaries that the field is not aligned with: a "!" each.
     layout : Quads, optional

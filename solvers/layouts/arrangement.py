@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
 
 from solvers.layouts.crossings import Crossings
 from solvers.layouts.curves import Curves, boundary_halfedges, with_loops
-from solvers.layouts.motorcycles import Stops, left_of
+from solvers.layouts.motorcycles import WHOLE, Stops, left_of
 from solvers.layouts.nodes import Node
 from solvers.layouts.pieces import as_sides, cycles
 from solvers.layouts.tmesh import TMesh
@@ -40,7 +40,7 @@ class Arrangement:
     node_at : (N,) float array
         Where along it.
     t_junctions : (t,) int array
-        Nodes where a limit cycle was cut.
+        Nodes where a trace was cut.
     """
 
     tmesh: TMesh
@@ -51,6 +51,17 @@ class Arrangement:
     node_curve: IntArray
     node_at: FloatArray
     t_junctions: IntArray
+
+
+@dataclass(frozen=True, order=True)
+class _Station:
+    """A node on a curve, in order along it, and the node's slots of the ways back and on."""
+
+    order: tuple[float, ...]
+    at: float
+    node: int
+    back: int
+    onwards: int
 
 
 class _Builder:
@@ -72,12 +83,12 @@ class _Builder:
         self.at.append(at)
         return len(self.quads) - 1
 
-    def chain(self, curve: int, stations: list[tuple[float, int, int, int]]) -> None:
-        """Add arcs between stations: length, node, slot of the way back and of the way on."""
-        for (start, one, _, onwards), (end, other, back, _) in pairwise(stations):
-            self.arcs.append((one, onwards, other, back))
+    def chain(self, curve: int, stations: list[_Station]) -> None:
+        """Add arcs between stations in their order."""
+        for one, other in pairwise(stations):
+            self.arcs.append((one.node, one.onwards, other.node, other.back))
             self.arc_curve.append(curve)
-            self.span.append((start, end))
+            self.span.append((one.at, max(one.at, other.at)))
 
 
 def arrange(
@@ -112,46 +123,47 @@ def arrange(
     for node in nodes:
         build.node(node.quads, node.inner, -1, 0.0)
     n_traces = len(traces.ends)
-    stations: list[list[tuple[float, int, int, int]]] = [[] for _ in curves.offsets[1:]]
+    stations: list[list[_Station]] = [[] for _ in curves.offsets[1:]]
     for i in np.flatnonzero(stopped.kept):
         start = int(traces.starts.node[i])
-        stations[i].append((0.0, start, -1, int(traces.starts.slot[i])))
+        stations[i].append(_Station((-1,), 0.0, start, -1, int(traces.starts.slot[i])))
         build.curve[start], build.at[start] = int(i), 0.0
     t_junctions = _add_crossings(build, stations, traces, crossings, stopped)
     _add_ends(build, stations, curves, traces, stopped, n_traces, loops)
     _add_corners(build, stations, curves, nodes, n_traces, loops)
     for curve, on_curve in enumerate(stations):
-        on_curve.sort(key=lambda station: station[0])
+        on_curve.sort()
         if curve >= n_traces and on_curve:
             first, length = on_curve[0], curves.chords.end[curves.offsets[curve + 1] - 1]
-            on_curve = [*on_curve, (first[0] + length, *first[1:])]
+            on_curve = [*on_curve, replace(first, at=first.at + length)]
         build.chain(curve, on_curve)
     return _finished(build, curves, nodes, critical, n_traces, t_junctions)
 
 
 def _add_crossings(
     build: _Builder,
-    stations: list[list[tuple[float, int, int, int]]],
+    stations: list[list[_Station]],
     traces: Traces,
     crossings: Crossings,
     stopped: Stops,
 ) -> IntArray:
-    """Add a node for each crossing that is left; return those at which a limit cycle ends."""
+    """Add a node for each crossing that is left; return those at which a trace is cut."""
     left = left_of(crossings, stopped)
     ending = []
-    for pair, chord, at in zip(left.trace, left.chord, left.at, strict=True):
-        node = build.node(4, True, int(pair[0]), float(at[0]))
-        for i, c, length in zip(pair, chord, at, strict=True):
-            axis = int(traces.chords.axis[c])
-            stations[i].append((float(length), node, (axis + 2) % 4, axis))
-            if stopped.limit_cycle[i] and length == stopped.at[i]:
+    axes = traces.chords.axis[left.chord].tolist()
+    columns = (c.tolist() for c in (left.trace, left.at, left.rank))
+    for pair, at, rank, axis in zip(*columns, axes, strict=True):
+        node = build.node(4, True, pair[0], at[0])
+        for i, length, number, way in zip(pair, at, rank, axis, strict=True):
+            stations[i].append(_Station((number,), length, node, (way + 2) % 4, way))
+            if number == stopped.rank[i]:
                 ending.append(node)
     return np.array(ending, dtype=np.int64)
 
 
 def _add_ends(
     build: _Builder,
-    stations: list[list[tuple[float, int, int, int]]],
+    stations: list[list[_Station]],
     curves: Curves,
     traces: Traces,
     stopped: Stops,
@@ -165,26 +177,27 @@ def _add_ends(
         for position, h in enumerate(loop.tolist())
     }
     chords = curves.chords
-    for i in np.flatnonzero(stopped.kept & ~stopped.limit_cycle):
+    for i in np.flatnonzero(stopped.kept & ~stopped.cut):
         last = traces.offsets[i + 1] - 1
         length = float(chords.end[last])
         if traces.ends[i] == NODE:
             node, back = int(traces.end_node[i]), int(traces.end_slot[i])
-            stations[i].append((length, node, back, -1))
+            stations[i].append(_Station((WHOLE,), length, node, back, -1))
             build.curve[node], build.at[node] = int(i), length
             continue
         h = int(3 * chords.face[last] + chords.side_out[last])
         curve, chord = on_loop[h]
         size = chords.end[chord] - chords.start[chord]
-        at = float(chords.start[chord] + chords.t_out[last] * size)
+        part = float(chords.t_out[last])
+        at = float(chords.start[chord] + part * size)
         node = build.node(2, False, curve, at)
-        stations[i].append((length, node, 1, -1))
-        stations[curve].append((at, node, 2, 0))
+        stations[i].append(_Station((WHOLE,), length, node, 1, -1))
+        stations[curve].append(_Station((chord, part, int(i)), at, node, 2, 0))
 
 
 def _add_corners(
     build: _Builder,
-    stations: list[list[tuple[float, int, int, int]]],
+    stations: list[list[_Station]],
     curves: Curves,
     nodes: Sequence[Node],
     n_traces: int,
@@ -195,10 +208,11 @@ def _add_corners(
     tail = curves.chart.triangulation.tail
     for curve, loop in enumerate(loops, start=n_traces):
         start = curves.chords.start[curves.offsets[curve] : curves.offsets[curve + 1]]
-        for vertex, at in zip(tail[loop].tolist(), start.tolist(), strict=True):
+        chords = range(curves.offsets[curve], curves.offsets[curve + 1])
+        for chord, vertex, at in zip(chords, tail[loop].tolist(), start.tolist(), strict=True):
             if vertex in number:
                 i = number[vertex]
-                stations[curve].append((at, i, nodes[i].quads, 0))
+                stations[curve].append(_Station((chord, -1), at, i, nodes[i].quads, 0))
                 build.curve[i], build.at[i] = curve, at
 
 

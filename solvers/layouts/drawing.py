@@ -13,14 +13,11 @@ from solvers.layouts.connections import beside, conditions, ending, passing
 from solvers.layouts.crossings import crossings
 from solvers.layouts.curves import bare_loops, boundary_halfedges
 from solvers.layouts.joined_map import JoinedMap
+from solvers.layouts.meetings import meeting_traces
 from solvers.layouts.motorcycles import Stops, left_of, stops
-from solvers.layouts.nodes import Node, node_at, starts_at
+from solvers.layouts.nodes import Node, node_at
 from solvers.layouts.rims import with_rims
 from solvers.layouts.separatrices import Separatrices, as_curves
-from solvers.layouts.tracing import trace
-
-EXACT = 1e-6
-"""How far beside a node a trace meets it, in typical edges of the map. Chosen, above rounding."""
 
 LONGEST, SHORTEST = 4.0, 0.06
 """Length at which a trace counts as a limit cycle, in diameters of the map, and the least to which
@@ -57,9 +54,7 @@ class Drawing:
         self._nodes = nodes = [*singular, *featured, *seeds]
         self._longest = longest
         chart = map_.chart
-        starts = starts_at(chart, nodes)
-        length = longest * chart.diameter
-        self.traces = trace(chart, nodes, starts, EXACT * chart.edge_length, length)
+        self.traces = meeting_traces(chart, nodes, longest * chart.diameter)
         self.crossings = crossings(chart, self.traces.chords)
 
     @cached_property

@@ -83,13 +83,8 @@ class QuadLayout:
 
     @property
     def t_junctions(self) -> FloatArray:
-        """(t, 3) places where a limit cycle was cut."""
+        """(t, 3) places where a separatrix that would wind on was cut."""
         return self.separatrices.t_junctions
-
-    @property
-    def limit_cycles(self) -> int:
-        """Number of separatrices that are limit cycles."""
-        return self.separatrices.limit_cycles
 
     @cached_property
     def patch_mesh(self) -> PatchMesh:
@@ -99,7 +94,7 @@ class QuadLayout:
     @property
     def conforming(self) -> bool:
         """Whether there is no T-junction."""
-        return self.limit_cycles == 0
+        return not len(self.arrangement.t_junctions)
 
 
 def quad_layout(

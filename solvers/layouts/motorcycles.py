@@ -12,8 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from solvers.layouts.crossings import Crossings
-from solvers.layouts.tracing import BORDER, LENGTH, NODE, Traces
-from solvers.surface.triangulation import BoolArray, FloatArray
+from solvers.layouts.tracing import BORDER, LENGTH, Traces
+from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
+
+WHOLE = np.iinfo(np.int64).max
+"""Rank beyond all crossings of a trace that nothing stops."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,13 +29,18 @@ class Stops:
         False for those that another runs along the other way.
     at : (k,) float array
         Length in the map up to which each is kept; infinite if nothing stops it.
-    limit_cycle : (k,) bool array
-        Whether it stops at a T-junction.
+    rank : (k,) int array
+        Rank of the crossing at which each is stopped; larger than any if nothing stops it.
     """
 
     kept: BoolArray
     at: FloatArray
-    limit_cycle: BoolArray
+    rank: IntArray
+
+    @property
+    def cut(self) -> BoolArray:
+        """(k,) whether it stops at another, in a T-junction."""
+        return self.rank < WHOLE
 
 
 def stops(traces: Traces, crossings: Crossings, longest: float = np.inf) -> Stops:
@@ -49,35 +57,37 @@ def stops(traces: Traces, crossings: Crossings, longest: float = np.inf) -> Stop
     long = (traces.ends == BORDER) & (traces.lengths > longest)
     endless = ((traces.ends == LENGTH) | long) & kept
     at = np.where(endless, np.inf, traces.lengths)
-    limit_cycle = np.zeros(len(kept), dtype=bool)
+    rank = np.full(len(kept), WHOLE)
     events = crossings[kept[crossings.trace].all(axis=1) & endless[crossings.trace].any(axis=1)]
     when = np.where(endless[events.trace], events.at, -1.0)
-    for i in np.argsort(when.max(axis=1), kind="stable"):
-        pair, reached = events.trace[i], events.at[i]
-        if (reached > at[pair]).any():
+    later = np.where(
+        when[:, 1] == when[:, 0], events.trace[:, 1] > events.trace[:, 0], when[:, 1] > when[:, 0]
+    )
+    rows = np.arange(len(events))
+    own = later.astype(np.int64)
+    order = np.lexsort((events.rank[rows, own], when.max(axis=1)))
+    for i in order:
+        pair = events.trace[i]
+        if (events.rank[i] > rank[pair]).any():
             continue
-        later = int(np.lexsort((pair, when[i]))[-1])
-        at[pair[later]] = reached[later]
-        limit_cycle[pair[later]] = True
-    unstopped = endless & ~limit_cycle & (traces.ends != LENGTH)
+        stopped = pair[own[i]]
+        at[stopped], rank[stopped] = events.at[i, own[i]], events.rank[i, own[i]]
+    unstopped = np.isinf(at) & (traces.ends != LENGTH)
     at[unstopped] = traces.lengths[unstopped]
-    return Stops(kept, at, limit_cycle)
+    return Stops(kept, at, rank)
 
 
 def left_of(crossings: Crossings, stopped: Stops) -> Crossings:
     """Return the crossings of what is kept of traces."""
     left = stopped.kept[crossings.trace].all(axis=1)
-    reached = (crossings.at <= stopped.at[crossings.trace]).all(axis=1)
+    reached = (crossings.rank <= stopped.rank[crossings.trace]).all(axis=1)
     return crossings[np.flatnonzero(left & reached)]
 
 
 def doubled(traces: Traces) -> BoolArray:
     """Return which traces run along another between two nodes, the other way."""
-    starts = traces.starts
-    number = {key: i for i, key in enumerate(zip(starts.node, starts.slot, strict=True))}
-    runs_along = np.zeros(len(traces.ends), dtype=bool)
-    for i in np.flatnonzero(traces.ends == NODE):
-        other = number.get((traces.end_node[i], traces.end_slot[i]), -1)
-        if not runs_along[i] and other >= 0 and other != i:
-            runs_along[other] = True
+    back = traces.leading_back
+    runs_along = np.zeros(len(back), dtype=bool)
+    for i in np.flatnonzero(back >= 0):
+        runs_along[back[i]] |= not runs_along[i] and back[i] != i
     return runs_along

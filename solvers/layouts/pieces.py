@@ -28,15 +28,20 @@ def cycles(
             if turn > 2 or (node, at) not in leaving:
                 raise LayoutError("the separatrices do not cut the surface into rectangles")
             following[half] = leaving[node, at], turn == 1
+    return _closed_chains(following)
+
+
+def _closed_chains(following: dict[int, tuple[int, bool]]) -> list[list[tuple[int, bool]]]:
+    """Take apart what follows what, with a mark each, into closed chains."""
     found = []
-    while following:
-        half = min(following)
-        cycle = []
+    for half in list(following):
+        chain = []
         while half in following:
             after, corner = following.pop(half)
-            cycle.append((half, corner))
+            chain.append((half, corner))
             half = after
-        found.append(cycle)
+        if chain:
+            found.append(chain)
     return found
 
 

@@ -49,8 +49,8 @@ class Separatrices:
     valences : (n,) int array
         Valence of the singularity each leaves; 0 for a corner, -1 for a seed.
     ends : (n,) int array
-        `SINGULARITY` (or a corner), `BOUNDARY`, `T_JUNCTION` (a limit cycle, cut at its first
-        orthogonal crossing) or `OPEN`.
+        `SINGULARITY` (or a corner), `BOUNDARY`, `T_JUNCTION` (it would wind on, and is cut at its
+        first orthogonal crossing) or `OPEN`.
 
     Examples
     --------
@@ -64,7 +64,7 @@ class Separatrices:
     >>> places = [[0.5, 0, 0], [0, 0.5, 0], [-0.5, 0, 0], [0, -0.5, 0]]
     >>> threes = [Singularity(surface.closest_point(place), 3) for place in places]
     >>> curves = field_separatrices(IsotropicSolver(surface).solve(threes))
-    >>> curves.leaving, len(curves.ends), curves.limit_cycles
+    >>> curves.leaving, len(curves.ends), len(curves.t_junctions)
     (12, 8, 0)
     """
 
@@ -79,13 +79,8 @@ class Separatrices:
 
     @property
     def t_junctions(self) -> FloatArray:
-        """(k, 3) where limit cycles are cut."""
+        """(k, 3) where curves that would wind on are cut."""
         return np.asarray(self.points[self.offsets[1:][self.ends == T_JUNCTION] - 1])
-
-    @property
-    def limit_cycles(self) -> int:
-        """Number of curves that end neither at a singularity nor at the boundary."""
-        return int(np.count_nonzero(self.ends >= T_JUNCTION))
 
     @property
     def leaving(self) -> int:
@@ -139,7 +134,7 @@ def as_curves(
     valence = np.array([n.quads if n.inner else 0 for n in nodes], dtype=np.int64)
     valence[~np.asarray(critical, dtype=bool)] = -1
     ends = np.array([SINGULARITY, BOUNDARY, OPEN])[traces.ends]
-    ends[stopped.limit_cycle] = T_JUNCTION
+    ends[stopped.cut] = T_JUNCTION
     offsets = np.concatenate([[0], np.cumsum(count)])
     return Separatrices(surface, points, offsets, valence[source], ends[stopped.kept])
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -32,6 +33,9 @@ GRAZING = 1e-3
 
 A share of the edge's length. Chosen.
 """
+
+NOTHING = np.empty((0, 2), dtype=np.int64)
+"""No trace runs past a node that it meets."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,6 +112,18 @@ class Traces:
     end_node: IntArray
     end_slot: IntArray
 
+    @cached_property
+    def leading_back(self) -> IntArray:
+        """(k,) the trace that leaves where each ends, the other way; -1 where there is none."""
+        most = 1 + max(self.starts.slot.max(initial=0), self.end_slot.max(initial=0))
+        left, met = (
+            node * most + slot
+            for node, slot in ((self.starts.node, self.starts.slot), (self.end_node, self.end_slot))
+        )
+        order = np.argsort(left)
+        at = order[np.minimum(np.searchsorted(left[order], met), len(order) - 1)]
+        return np.where((self.ends == NODE) & (left[at] == met), at, -1)
+
     @property
     def lengths(self) -> FloatArray:
         """(k,) length of each trace in the map."""
@@ -115,7 +131,12 @@ class Traces:
 
 
 def trace(
-    chart: Chart, nodes: Sequence[Node], starts: Starts, tolerance: float, longest: float
+    chart: Chart,
+    nodes: Sequence[Node],
+    starts: Starts,
+    tolerance: float | FloatArray,
+    longest: float,
+    past: IntArray = NOTHING,
 ) -> Traces:
     """Trace curves until they meet a node or the boundary, or have become too long.
 
@@ -127,16 +148,18 @@ def trace(
         Where traces start, and end.
     starts : Starts
         Of the traces.
-    tolerance : float
-        How far beside a node, in the map, a trace still meets it.
+    tolerance : float or (N,) float array
+        How far beside each node, in the map, a trace still meets it.
     longest : float
         Length in the map beyond which a trace is given up.
+    past : (p, 2) int array, optional
+        Traces, and nodes that they run past, however close.
 
     Returns
     -------
     Traces
     """
-    walk = _Walk(chart, nodes, tolerance)
+    walk = _Walk(chart, nodes, tolerance, past)
     t = chart.triangulation
     k = len(starts.halfedge)
     ends = np.full(k, LENGTH)
@@ -161,13 +184,21 @@ def trace(
 class _Walk:
     """Steps of many traces from one triangle to the next."""
 
-    def __init__(self, chart: Chart, nodes: Sequence[Node], tolerance: float) -> None:
+    def __init__(
+        self,
+        chart: Chart,
+        nodes: Sequence[Node],
+        tolerance: float | FloatArray,
+        past: IntArray,
+    ) -> None:
         self._chart = chart
         self._nodes = nodes
         self._node_of = np.full(chart.triangulation.n_vertices, -1, dtype=np.int64)
         for number, node in enumerate(nodes):
             self._node_of[node.vertex] = number
-        self._tolerance = tolerance
+        self._tolerance = np.zeros(len(self._node_of))
+        self._tolerance[[node.vertex for node in nodes]] = tolerance
+        self._past = past @ [len(nodes), 1]
 
     def first(self, starts: Starts) -> Chords:
         """Return the chords from corners."""
@@ -217,8 +248,10 @@ class _Walk:
             side_out, out = self._let_in(seen, rows, side, side_out, out)
         for corner in [right, left] if from_corner else [apex]:
             there = seen[rows, corner]
-            target = self._node_of[self._chart.triangulation.faces[face, corner]] >= 0
-            target &= (np.abs(there.imag) <= self._tolerance) & (there.real > 0)
+            vertex = self._chart.triangulation.faces[face, corner]
+            node = self._node_of[vertex]
+            target = (node >= 0) & (np.abs(there.imag) <= self._tolerance[vertex])
+            target &= (there.real > 0) & ~np.isin(trace * len(self._nodes) + node, self._past)
             corner_out |= target
             side_out = np.where(target, corner, side_out)
             out = np.where(target, 0.0, out)

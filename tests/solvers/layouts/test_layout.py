@@ -92,11 +92,10 @@ def test_patches_cover_the_surface(name: str) -> None:
     assert set(mesh.patch) == set(range(layout.patches))
 
 
-def test_limit_cycles_are_cut_where_they_first_meet_another_at_right_angles() -> None:
+def test_what_winds_is_cut_where_it_first_meets_another_at_right_angles() -> None:
     layout = layout_of("winding sphere")
-    assert layout.limit_cycles > 0
     assert not layout.conforming
-    assert len(layout.t_junctions) == layout.limit_cycles
+    assert len(layout.t_junctions) == len(layout.arrangement.t_junctions)
     assert (layout.tmesh.node_valence[layout.arrangement.t_junctions] == 3).all()
     # 16 of 24 curves are cut, each into a rectangle's side: T-junctions bound the rectangles
     assert layout.patches >= len(layout.integrated.field.singularities) - 2
@@ -210,7 +209,7 @@ def test_however_early_curves_are_cut_rectangles_are_left(longest: float) -> Non
     # what joins two nodes is kept whole: the curve back along it has been left out
     joining = (traces.ends == NODE) & stopped.kept
     assert joining.any()
-    assert not stopped.limit_cycle[joining].any()
+    assert not stopped.cut[joining].any()
     critical = np.ones(len(nodes), dtype=bool)
     tmesh = arrange(made.surface, nodes, critical, traces, crossed, stopped).tmesh
     assert tmesh.n_nodes - tmesh.n_arcs + tmesh.n_rectangles == 0
