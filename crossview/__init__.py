@@ -20,6 +20,7 @@ from importlib.metadata import version
 
 from crossview.cases.model import Case
 from crossview.library import (
+    batch,
     complete,
     improve,
     layout,
@@ -53,6 +54,7 @@ __all__ = [
     "Solution",
     "SurfacePoint",
     "TriSurface",
+    "batch",
     "complete",
     "improve",
     "layout",

@@ -9,13 +9,15 @@ Each takes and returns values that nothing changes afterwards: `read` makes a `P
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeVar
 
 from crossview.cases.gallery import find_case
 from crossview.cases.model import Builtin, Case, CaseError, check_method
+from crossview.studies import TIME_LIMIT, Limits, Study
+from crossview.studies import batch as run_study
 from crossview.workflow import configurations
 from crossview.workflow import layout as layouts
 from crossview.workflow import quads as meshes
@@ -26,6 +28,7 @@ from solvers import CrossviewError, Progress, TriSurface, run
 from solvers.fields import CURVATURE_WEIGHT, MOST_VALENCE
 from solvers.kind_checks import one_of_kind
 from solvers.layouts import QuadLayout
+from solvers.number_checks import whole_number
 from solvers.quads import QuadMesh
 
 Watch = Callable[[Progress], object] | None
@@ -400,6 +403,63 @@ def quads(
     _require("layout", layout, QuadLayout)
     options = meshes.MeshOptions(edge_length, target_quads, smooth)
     return run(meshes.quads(layout, options), progress)
+
+
+def batch(
+    study: str | os.PathLike[str] | Study | Mapping[str, Any],
+    directory: str | os.PathLike[str],
+    *,
+    workers: int | None = None,
+    time_limit: float = TIME_LIMIT,
+    memory_limit: float | None = None,
+    progress: Watch = None,
+) -> list[dict[str, Any]]:
+    """Run the cases of a study in several processes; write a table and a page of all figures.
+
+    Parameters
+    ----------
+    study : path-like, Study or mapping
+        What is wanted: a study file, or what one says, with paths relative to the working folder.
+    directory : path-like
+        For table.csv, index.html and what is kept of each case; what has ended there before is not
+        worked on again.
+    workers : int, optional
+        Number of processes; one for each core if it is not given.
+    time_limit : float, optional
+        Seconds that a case may take.
+    memory_limit : float, optional
+        Memory that a case may take, in 1e9 bytes; a process's share of the machine if not given.
+    progress : callable, optional
+        Called as each case ends.
+
+    Returns
+    -------
+    list of dict
+        The rows of the table: case, status, reason, step, seconds and files, what varies, figures.
+
+    Raises
+    ------
+    CrossviewError
+        The study cannot be begun, or the directory cannot be written. A case that goes wrong is a
+        row.
+
+    Examples
+    --------
+    >>> import crossview
+    >>> study = {"cases": ["disk-4"], "vary": {"singularities[0].valence": [3, 4]}}
+    >>> [row["status"] for row in crossview.batch(study, "results", workers=1)]
+    ['done', 'failed']
+    """
+    if isinstance(study, Mapping):
+        study = Study.from_json(study)
+    elif not isinstance(study, Study):
+        study = Study.load(_path("study", study))
+    limits = Limits(time_limit, memory_limit)
+    if workers is not None:
+        workers = whole_number("the number of workers", workers, 1)
+    return run(
+        run_study(study, _path("folder", directory), workers=workers, limits=limits), progress
+    )
 
 
 def write_case(

@@ -21,6 +21,7 @@ from typing import Any
 
 from crossview.cases.model import Case
 from crossview.cli import app, main
+from crossview.studies import Study
 
 FENCE = re.compile(r"^```(?P<info>\w[^\n]*)\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
 SAID = re.compile(r"^ *print\(.*\) *# (.*)$", re.MULTILINE)
@@ -97,7 +98,8 @@ def _run(example: Example, place: str, namespace: dict[str, Any]) -> None:
         # blank lines before it, so that a traceback tells the document's line
         exec(compile("\n" * example.line + example.text, place, "exec"), namespace)
     elif example.language == "json":
-        Case.from_json(json.loads(example.text))
+        data = json.loads(example.text)
+        (Study if "cases" in data else Case).from_json(data)
         if example.name:
             Path(example.name).write_text(example.text, encoding="utf-8")
     else:

@@ -10,6 +10,7 @@ from cyclopts import App, CycloptsError
 
 from crossview import __version__
 from crossview.cases.json_values import nearest
+from crossview.cli.batch import batch
 from crossview.cli.complete import complete
 from crossview.cli.hints import with_command
 from crossview.cli.improve import improve
@@ -32,8 +33,9 @@ app = App(
     suppress_keyboard_interrupt=False,
 )
 app.default(window)
-for command in (info, solve, render, gallery, natural, complete, make_valid, improve, schema):
+for command in (info, solve, render, gallery, natural, complete, make_valid, improve, batch):
     app.command(command)
+app.command(schema)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

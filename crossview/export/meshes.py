@@ -7,6 +7,7 @@ import errno
 import json
 import struct
 from collections.abc import Callable
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,6 @@ import numpy as np
 import pyvista as pv
 from vtkmodules.vtkIOLegacy import vtkUnstructuredGridWriter
 
-from crossview import __version__
 from crossview.io.staged_files import staged
 from solvers.errors import CrossviewError
 from solvers.quads import QuadMesh
@@ -170,7 +170,7 @@ def _gltf(mesh: QuadMesh) -> tuple[dict[str, Any], bytes]:
     index = {"bufferView": 1, "componentType": UNSIGNED, "count": len(corners), "type": "SCALAR"}
     primitive = {"attributes": {"POSITION": 0}, "indices": 1, "mode": TRIANGLES}
     document = {
-        "asset": {"version": "2.0", "generator": f"crossview {__version__}"},
+        "asset": {"version": "2.0", "generator": f"crossview {version('crossview')}"},
         "scene": 0,
         "scenes": [{"nodes": [0]}],
         "nodes": [{"mesh": 0}],
@@ -191,7 +191,9 @@ def _gltf(mesh: QuadMesh) -> tuple[dict[str, Any], bytes]:
 
 
 def _made(mesh: QuadMesh) -> str:
-    return f"crossview {__version__}: {len(mesh.vertices)} vertices, {len(mesh.quads)} quads"
+    return (
+        f"crossview {version('crossview')}: {len(mesh.vertices)} vertices, {len(mesh.quads)} quads"
+    )
 
 
 WRITERS: dict[str, Callable[[QuadMesh, Path], None]] = {

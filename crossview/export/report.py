@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from crossview import __version__
 from crossview.export.meshes import check_kind, write_mesh
 from crossview.export.vtp import (
     cross_lines,
@@ -51,7 +51,7 @@ def report(
     problem, field = solution.problem, solution.field
     surface, solved_on = problem.surface, solution.surface
     return {
-        "crossview": __version__,
+        "crossview": version("crossview"),
         "method": problem.method,
         "surface": {
             "vertices": surface.n_vertices,
