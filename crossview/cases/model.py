@@ -23,7 +23,7 @@ from crossview.cases.parts import (
 from crossview.cases.records import Record, checked, documented, key
 from crossview.cases.scalars import Text, Word
 from crossview.cases.surfaces import Builtin, SurfaceName
-from crossview.io.staged_files import staged, unwritable
+from crossview.io.staged_files import staged_file
 from solvers.kind_checks import all_of_kind, one_of_kind
 
 __all__ = [
@@ -109,6 +109,12 @@ class Case:
             if (given := getattr(self, name)) is not None:
                 placed = all_of_kind(name, given, kind, error=CaseError)
                 object.__setattr__(self, name, placed)
+
+    @property
+    def files(self) -> tuple[str, ...]:
+        """The files that it is solved from, its surface and its size map, as far as they are files."""
+        named = (self.surface, self.options.sizes)
+        return tuple(name for name in named if isinstance(name, str))
 
     def with_choices(
         self,
@@ -230,12 +236,11 @@ class Case:
         Raises
         ------
         CrossviewError
-            The file cannot be written.
+            The file cannot be written, or its name does not end in .json.
         """
         path = Path(path)
         text = json.dumps(self.to_json(path.parent), indent=2, ensure_ascii=False) + "\n"
-        with staged(path.parent) as staging:
-            try:
-                (staging / path.name).write_text(text, encoding="utf-8")
-            except OSError as error:
-                raise unwritable(path, error) from error
+        if path.suffix.lower() != ".json":
+            raise CaseError("cannot write a case under a name without .json", str(path), "add that")
+        with staged_file(path, self.files) as made:
+            made.write_text(text, encoding="utf-8")

@@ -15,7 +15,7 @@ from crossview.cases import gallery as cases
 from crossview.cases.model import Case
 from crossview.cli.options import CaseOptions, Flag, Output, QuadOptions, Quiet
 from crossview.cli.terminal import say, watch
-from crossview.io.staged_files import staged
+from crossview.io.staged_files import staged, staged_file
 from crossview.workflow.layout import layout, layout_soon
 from crossview.workflow.pipeline import Solution, solve_case
 from crossview.workflow.quads import MeshOptions, quads_of
@@ -103,8 +103,8 @@ def render(
         )
         return solution
 
-    with staged(target.parent) as staging:
-        watch(work(staging / target.name), quiet)
+    with staged_file(target) as made:
+        watch(work(made), quiet)
     if not quiet:
         say(f"wrote {output}")
 

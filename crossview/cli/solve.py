@@ -57,7 +57,7 @@ def solve(
     wanted = sizes.wanted(quads, "add --quads")
     kinds = _formats(formats, quads)
     found = chosen.case(case)
-    with staged(output) as staging:
+    with staged(output, found.files) as staging:
         results = watch(_solved_into(staging, found, wanted, kinds), quiet)
     if as_json:
         reports = [report(*made) for made in results]

@@ -9,7 +9,7 @@ from typing import Any
 
 from crossview.export.raster import FigureError, check_size, picture
 from crossview.export.vector import save_vector
-from crossview.io.staged_files import staged
+from crossview.io.staged_files import staged_file
 from crossview.scene import (
     Camera,
     LayerSettings,
@@ -169,10 +169,10 @@ def render_view(
     """
     target = Path(path)
     _check_kind(target)
-    with staged(target.parent) as staging:
+    with staged_file(target) as made:
         if target.suffix.lower() == ".png":
             said = {} if dpi is None else {"dpi": (dpi, dpi)}
-            picture(view, size, scale, camera).save(staging / target.name, "PNG", **said)
+            picture(view, size, scale, camera).save(made, "PNG", **said)
         else:
-            save_vector(view, staging / target.name, size, scale, camera, dpi)
+            save_vector(view, made, size, scale, camera, dpi)
     return target

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import base64
-import errno
 import json
 import struct
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -14,15 +13,12 @@ from typing import Any
 import meshio
 import numpy as np
 import pyvista as pv
-from vtkmodules.vtkIOLegacy import vtkUnstructuredGridWriter
 
-from crossview.io.staged_files import staged
+from crossview.export.vtk_bytes import save_vtk
+from crossview.io.staged_files import staged_file
 from solvers.errors import CrossviewError
 from solvers.quads import QuadMesh
 from solvers.surface import FloatArray, IntArray
-
-OLDER = 42
-"""Version of VTK's legacy format that its readers outside of VTK know best."""
 
 SINGLE, UNSIGNED, TRIANGLES = 5126, 5125, 4
 """Codes of glTF for 4-byte floats, 4-byte indices, and separate triangles."""
@@ -45,7 +41,7 @@ def check_kind(path: Path) -> None:
         )
 
 
-def write_mesh(mesh: QuadMesh, path: str | Path) -> None:
+def write_mesh(mesh: QuadMesh, path: str | Path, kept: Iterable[str] = ()) -> None:
     """Write a quad mesh whole or not at all.
 
     Parameters
@@ -57,6 +53,8 @@ def write_mesh(mesh: QuadMesh, path: str | Path) -> None:
         quad its "patch" and "scaled_jacobian". MSH 2.2 names the group of quads "surface" and the
         edges of each boundary "boundary 1", "boundary 2", ... GLTF and GLB know no quads: each is
         split along its shorter diagonal.
+    kept : iterable of str
+        Files that this one may not replace.
 
     Raises
     ------
@@ -65,8 +63,8 @@ def write_mesh(mesh: QuadMesh, path: str | Path) -> None:
     """
     path = Path(path)
     check_kind(path)
-    with staged(path.parent) as staging:
-        WRITERS[path.suffix.lower()](mesh, staging / path.name)
+    with staged_file(path, kept) as made:
+        WRITERS[path.suffix.lower()](mesh, made)
 
 
 def boundary_edges(mesh: QuadMesh) -> tuple[IntArray, IntArray]:
@@ -102,16 +100,7 @@ def _write_vtk(mesh: QuadMesh, path: Path) -> None:
     grid.point_data["boundary"] = (mesh.boundary_loop + 1).astype(np.int32)
     grid.cell_data["patch"] = mesh.patch.astype(np.int32)
     grid.cell_data["scaled_jacobian"] = mesh.scaled_jacobian
-    if path.suffix.lower() == ".vtu":
-        grid.save(path)
-        return
-    writer = vtkUnstructuredGridWriter()
-    writer.SetFileVersion(OLDER)
-    writer.SetFileTypeToBinary()
-    writer.SetInputData(grid)
-    writer.SetFileName(str(path))
-    if not writer.Write():
-        raise OSError(errno.EIO, "VTK could not write the file")
+    save_vtk(grid, path)
 
 
 def _write_ply(mesh: QuadMesh, path: Path) -> None:

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from crossview.export.meshes import check_kind, write_mesh
+from crossview.export.vtk_bytes import save_vtk
 from crossview.export.vtp import (
     cross_lines,
     cut_lines,
@@ -221,16 +222,16 @@ def write_files(
     formats: Sequence[str] = FORMATS,
 ) -> None:
     """Write the files of `write_solution` one by one into an existing folder."""
-    separatrix_lines(separatrices(solution, layout)).save(directory / "separatrices.vtp")
-    field_surface(solution).save(directory / "surface.vtp")
-    cross_lines(solution).save(directory / "crosses.vtp")
-    cut_lines(solution).save(directory / "cut_graph.vtp")
-    singularity_points(solution).save(directory / "singularities.vtp")
+    save_vtk(separatrix_lines(separatrices(solution, layout)), directory / "separatrices.vtp")
+    save_vtk(field_surface(solution), directory / "surface.vtp")
+    save_vtk(cross_lines(solution), directory / "crosses.vtp")
+    save_vtk(cut_lines(solution), directory / "cut_graph.vtp")
+    save_vtk(singularity_points(solution), directory / "singularities.vtp")
     if len(solution.features):
-        feature_lines(solution).save(directory / "features.vtp")
+        save_vtk(feature_lines(solution), directory / "features.vtp")
     if quads is not None:
         if layout is not None:
-            layout_patches(layout).save(directory / "layout.vtp")
+            save_vtk(layout_patches(layout), directory / "layout.vtp")
         for suffix in formats:
             write_mesh(quads, directory / f"quads.{suffix}")
     text = json.dumps(

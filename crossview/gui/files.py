@@ -185,9 +185,10 @@ class Files:
 
     def save_quads(self, path: Path) -> None:
         """Write the quads that are shown."""
-        quads = self._session.state.made.quads
-        if quads is not None:
-            self._write(partial(write_mesh, quads), path)
+        state = self._session.state
+        if state.made.quads is not None and state.document is not None:
+            kept = state.document.to_case().files
+            self._write(partial(write_mesh, state.made.quads, kept=kept), path)
 
     def _keep_copy(self) -> None:
         state = self._session.state

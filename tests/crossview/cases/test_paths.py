@@ -18,12 +18,13 @@ def test_a_name_too_long_is_no_file(target: str) -> None:
     assert "\n" not in str(refused.value)
 
 
-@pytest.mark.parametrize("name", [".", LONG, "folder"])
+@pytest.mark.parametrize("name", [".", LONG, "folder", f"{LONG}.json", "folder.json"])
 def test_a_case_is_not_written_where_no_file_can_be(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path("folder").mkdir()
+    Path("folder.json").mkdir()
     with pytest.raises(CrossviewError, match="cannot write"):
         Case(Builtin("disk")).save(name)
-    assert [path.name for path in tmp_path.rglob("*")] == ["folder"]
+    assert sorted(path.name for path in tmp_path.rglob("*")) == ["folder", "folder.json"]

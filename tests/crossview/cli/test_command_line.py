@@ -17,7 +17,7 @@ import pytest
 import pyvista as pv
 
 from solvers.primitives import sphere, square, torus
-from tests.command_line import CaseFile, Crossview, refused
+from tests.command_line import CaseFile, Crossview, Ran, refused
 
 PROGRAM = Path(sys.executable).with_name("crossview")
 
@@ -271,6 +271,54 @@ def test_messages_hold_no_control_characters_and_are_short(
     assert said.rstrip("\n").isprintable()
     assert "\\u001b[31m\\u0007kkk" in said
     assert len(said) < 2000
+
+
+@pytest.mark.parametrize("name", ["surface.obj", "case.txt", "case.json.png"])
+def test_a_case_is_written_under_no_other_formats_name(
+    crossview: Crossview, tmp_path: Path, name: str
+) -> None:
+    mesh = sphere(1)
+    surface = write_obj(tmp_path / "surface.obj", mesh.vertices, mesh.faces)
+    before = surface.read_bytes()
+    ran = crossview("complete", surface, "-o", tmp_path / name)
+    refused(ran, tmp_path, "cannot write a case under a name without .json")
+    assert surface.read_bytes() == before
+    assert [path.name for path in tmp_path.iterdir()] == ["surface.obj"]
+
+
+def test_results_do_not_overwrite_their_own_surface(crossview: Crossview, tmp_path: Path) -> None:
+    folder = tmp_path / "mine"
+    folder.mkdir()
+    mesh = sphere(1)
+    pv.PolyData.from_regular_faces(mesh.vertices, mesh.faces).save(folder / "surface.vtp")
+    before = (folder / "surface.vtp").read_bytes()
+    completed = tmp_path / "case.json"
+    assert crossview("complete", folder / "surface.vtp", "-o", completed, "--quiet").status == 0
+    refused(crossview("solve", completed, "-o", folder), tmp_path, "overwrite what it is made from")
+    assert (folder / "surface.vtp").read_bytes() == before
+    assert [path.name for path in folder.iterdir()] == ["surface.vtp"]
+
+
+@pytest.mark.parametrize("size", [1000, 60_000])
+@pytest.mark.parametrize(
+    "command", [["solve", "disk-4", "-o", "out"], ["render", "disk-4", "-o", "out.png"]]
+)
+def test_a_full_disk_is_one_line(tmp_path: Path, command: list[str], size: int) -> None:
+    """No file may grow above some bytes."""
+    limited = (
+        "import resource, sys; "
+        f"resource.setrlimit(resource.RLIMIT_FSIZE, ({size}, resource.RLIM_INFINITY)); "
+        "from crossview.cli import main; sys.exit(main(sys.argv[1:]))"
+    )
+    ran = subprocess.run(
+        [sys.executable, "-c", limited, *command, "--quiet"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    refused(Ran(ran.returncode, ran.stdout, ran.stderr), tmp_path, "cannot write", "too large")
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_info_lists_all_components(crossview: Crossview, two_pieces: Path) -> None:
