@@ -19,8 +19,10 @@ from __future__ import annotations
 from importlib.metadata import version
 
 from crossview.cases.model import Case
+from crossview.certificate import Certificate
 from crossview.library import (
     batch,
+    check,
     complete,
     improve,
     layout,
@@ -46,6 +48,7 @@ __version__ = version("crossview")
 
 __all__ = [
     "Case",
+    "Certificate",
     "CrossviewError",
     "Problem",
     "QuadLayout",
@@ -55,6 +58,7 @@ __all__ = [
     "SurfacePoint",
     "TriSurface",
     "batch",
+    "check",
     "complete",
     "improve",
     "layout",

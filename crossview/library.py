@@ -16,11 +16,13 @@ from typing import Any, TypeVar
 
 from crossview.cases.gallery import find_case
 from crossview.cases.model import Builtin, Case, CaseError, check_method
+from crossview.certificate import Certificate, certify
 from crossview.studies import TIME_LIMIT, Limits, Study
 from crossview.studies import batch as run_study
 from crossview.workflow import configurations
 from crossview.workflow import layout as layouts
 from crossview.workflow import quads as meshes
+from crossview.workflow.certification import faces_in, faces_of, reference
 from crossview.workflow.pipeline import Pipeline
 from crossview.workflow.problem import Problem
 from crossview.workflow.solution import Solution
@@ -604,6 +606,52 @@ def report(
 
     _require_together(solution, layout, quads)
     return told(solution, layout, quads)
+
+
+def check(
+    mesh: QuadMesh | str | os.PathLike[str],
+    against: Problem,
+    *,
+    imposed: bool = False,
+    target_quads: int | None = None,
+) -> Certificate:
+    """Check a quad mesh of any origin by a judge that shares nothing with what makes quads.
+
+    Parameters
+    ----------
+    mesh : QuadMesh or path-like
+        The mesh, or a file of one; its faces are taken as they stand there.
+    against : Problem
+        Whose surface it should cover, and whose features its edges should follow.
+    imposed : bool, optional
+        Whether its irregular vertices should be the problem's singularities and corners.
+    target_quads : int, optional
+        How many quads were wanted.
+
+    Returns
+    -------
+    Certificate
+        All that was measured, and what is wrong.
+
+    Raises
+    ------
+    CrossviewError
+        The file cannot be read, or there is no mesh in it.
+
+    Examples
+    --------
+    >>> import crossview
+    >>> problem = crossview.read("disk-4")
+    >>> mesh = crossview.quads(crossview.layout(crossview.solve(problem)), 300)
+    >>> crossview.check(mesh, problem, imposed=True).right
+    True
+    >>> print(crossview.check(mesh, problem, target_quads=400).faults[0])  # doctest: +ELLIPSIS
+    3... faces, 400 were wanted
+    """
+    _require("problem", against, Problem)
+    wanted = None if target_quads is None else whole_number("target_quads", target_quads, 1)
+    faces = faces_of(mesh) if isinstance(mesh, QuadMesh) else faces_in(_path("mesh file", mesh))
+    return certify(faces, reference([against], imposed, wanted))
 
 
 def render(

@@ -11,6 +11,7 @@ from cyclopts import App, CycloptsError
 from crossview import __version__
 from crossview.cases.json_values import nearest
 from crossview.cli.batch import batch
+from crossview.cli.check import check
 from crossview.cli.complete import complete
 from crossview.cli.hints import with_command
 from crossview.cli.improve import improve
@@ -33,7 +34,18 @@ app = App(
     suppress_keyboard_interrupt=False,
 )
 app.default(window)
-for command in (info, solve, render, gallery, natural, complete, make_valid, improve, batch):
+for command in (
+    info,
+    solve,
+    check,
+    render,
+    gallery,
+    natural,
+    complete,
+    make_valid,
+    improve,
+    batch,
+):
     app.command(command)
 app.command(schema)
 
@@ -49,8 +61,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        Exit status: 0 (or the window's, or what `info` says), 2 for a mistake the user can mend,
-        130 when interrupted.
+        Exit status: 0 (or the window's, or what `info` says), 1 for quads that are not right, 2
+        for a mistake the user can mend, 130 when interrupted.
     """
     tokens = list(sys.argv[1:] if arguments is None else arguments)
     try:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -73,6 +74,34 @@ def read_surface(path: str | Path) -> RawSurface:
         When there is no such file, or it is none of these formats, malformed, or without faces.
     """
     path = Path(path)
+    with _told_of(path):
+        polygons = _read(path)
+        faces, notes = polygons.triangles()
+    if not len(faces):
+        raise CrossviewError("the file holds no faces", str(path), "a surface needs triangles")
+    return RawSurface(polygons.points, faces, notes, path.suffix.lower() in UNSHARED)
+
+
+def read_polygons(path: str | Path) -> Polygons:
+    """Read a surface file; polygons stay whole, however many corners they have.
+
+    Parameters
+    ----------
+    path : str or Path
+        The format follows from its ending, one of `SUFFIXES`.
+
+    Raises
+    ------
+    CrossviewError
+        When there is no such file, or it is none of these formats or malformed.
+    """
+    path = Path(path)
+    with _told_of(path):
+        return _read(path)
+
+
+def _read(path: Path) -> Polygons:
+    """What the reader of its ending finds in a file."""
     reader = READERS.get(path.suffix.lower())
     if reader is None:
         raise CrossviewError(
@@ -80,12 +109,17 @@ def read_surface(path: str | Path) -> RawSurface:
             str(path),
             f"use one of {' '.join(suffix[1:] for suffix in SUFFIXES)}",
         )
+    if not require_regular(path):
+        raise CrossviewError("the file is empty", str(path))
+    return reader(path)
+
+
+@contextmanager
+def _told_of(path: Path) -> Iterator[None]:
+    """Tell in one line what goes wrong while a file is read."""
     try:
-        if not require_regular(path):
-            raise CrossviewError("the file is empty", str(path))
         with np.errstate(all="ignore"):  # what is no number is told of the surface
-            polygons = reader(path)
-            faces, notes = polygons.triangles()
+            yield
     except SurfaceError as error:
         error.locate(str(path))
         raise
@@ -98,6 +132,3 @@ def read_surface(path: str | Path) -> RawSurface:
         raise CrossviewError("the file needs more memory than there is", str(path)) from error
     except (ValueError, OverflowError) as error:
         raise CrossviewError("malformed file", str(path), str(error)) from error
-    if not len(faces):
-        raise CrossviewError("the file holds no faces", str(path), "a surface needs triangles")
-    return RawSurface(polygons.points, faces, notes, path.suffix.lower() in UNSHARED)

@@ -1,0 +1,172 @@
+"""The angles at the corners of faces, in the tangent planes of the surface under them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from crossview.certificate.faces import Bools, Faces, Floats, Ints
+from crossview.certificate.samples import Ground, doubled
+
+FEW, MANY = 2, 6
+"""Places under the quarter of a face at a corner, in each direction. Chosen: the first for all
+corners, the second for those near the limits."""
+
+AGREEING = 0.95
+"""Length of the mean of unit normals above which few places are enough. Chosen: two normals are
+then 36 degrees apart."""
+
+NEAR = 30.0
+"""Degrees from 0 and from 180 within which an angle is measured with more places. Chosen."""
+
+STRAIGHT = 1e-6
+"""Degrees below 180, and above 0, that count as 180 and 0. Chosen, above rounding."""
+
+NO_LENGTH = 1e-9
+"""Length of a side that counts as none, in that of the face's longest. Chosen, above rounding."""
+
+FULL = 361.0
+"""Degrees that two faces around a vertex may have together where the surface is flat. Chosen,
+above rounding."""
+
+
+@dataclass(frozen=True)
+class Angles:
+    """Angles at the corners of a mesh that lies on a surface.
+
+    Faces that are oriented against their piece, and pieces against the surface, count as turned
+    over: that is a fault of its own.
+
+    Attributes
+    ----------
+    faces : Faces
+    across : (c, 3) float array
+        Cross product of the sides at each corner, on to the next corner and back to the last.
+    level : (c,) float array
+        Product of the two in the tangent plane.
+    normals : (c, 3) float array
+        Unit normals of the tangent planes.
+    """
+
+    faces: Faces
+    across: Floats
+    level: Floats
+    normals: Floats
+
+    @cached_property
+    def _upright(self) -> Floats:
+        """(c,) length of `across` along the normal."""
+        return np.asarray(np.einsum("ij,ij->i", self.across, self.normals))
+
+    @cached_property
+    def _senses(self) -> tuple[Floats, Floats]:
+        """-1 for each face turned against its piece, and for each piece against the surface."""
+        turned = np.where(self.faces.turned[0], -1.0, 1.0)
+        upright = np.bincount(self.faces.owner, self._upright) * turned
+        return turned, np.where(np.bincount(self.faces.pieces[1], upright) < 0, -1.0, 1.0)
+
+    @property
+    def inside_out(self) -> int:
+        """Number of pieces oriented against the surface."""
+        return int(np.count_nonzero(self._senses[1] < 0))
+
+    @cached_property
+    def _sines(self) -> Floats:
+        turned, pieces = self._senses
+        return self._upright * (turned * pieces[self.faces.pieces[1]])[self.faces.owner]
+
+    @cached_property
+    def degrees(self) -> Floats:
+        """(c,) angle of each corner, from 0 to 360."""
+        return np.asarray(np.degrees(np.arctan2(self._sines, self.level)) % 360)
+
+    @cached_property
+    def scaled_jacobian(self) -> Floats:
+        """(m,) least sine of a face's corners; -1 with a side without length (Knupp 2000)."""
+        size = self.faces.lengths * self.faces.lengths[self.faces.before]
+        sines = np.where(self.collapsed, -1.0, self._sines / np.where(size > 0, size, 1))
+        return np.asarray(np.minimum.reduceat(sines, self.faces.starts))
+
+    @cached_property
+    def collapsed(self) -> Bools:
+        """(c,) whether one of the two sides at a corner has no length."""
+        length = self.faces.lengths
+        longest = np.maximum.reduceat(length, self.faces.starts)[self.faces.owner]
+        none = length <= NO_LENGTH * longest
+        return np.asarray(none | none[self.faces.before])
+
+    @cached_property
+    def _folded(self) -> Bools:
+        """(c,) whether a corner has 180 degrees or more, or none."""
+        convex = (self.degrees > STRAIGHT) & (self.degrees < 180 - STRAIGHT)
+        return np.asarray(~convex | self.collapsed)
+
+    @cached_property
+    def excused(self) -> Bools:
+        """(c,) whether a corner has 180 degrees or more because it is one of two in flat land."""
+        faces = self.faces
+        together = np.bincount(faces.corners, self.degrees, minlength=len(faces.points))
+        two = (faces.meeting == 2) & ~faces.on_rim & (together < FULL)
+        return np.asarray(self._folded & ~self.collapsed & two[faces.corners])
+
+    @cached_property
+    def inverted(self) -> Bools:
+        """(c,) whether a corner has 180 degrees or more, or none, and nothing excuses it."""
+        return np.asarray(self._folded & ~self.excused)
+
+
+def corner_angles(faces: Faces, triangles: Floats, ground: Ground) -> Angles:
+    """Measure a mesh on a surface.
+
+    The normal at a corner is the mean of the surface's normals under the quarter of the face there
+    (between the corner, the middles of its two sides and that of the face): those of its own side
+    of a crease, however the face itself is bent.
+
+    Parameters
+    ----------
+    faces : Faces
+    triangles : (t, 3, 3) float array
+        The surface, oriented.
+    ground : Ground
+        Of the same triangles.
+    """
+    ends = faces.points[faces.sides]
+    ahead = ends[:, 1] - ends[:, 0]
+    back = -ahead[faces.before]
+    across = np.cross(ahead, back)
+
+    def measured(normals: Floats) -> Angles:
+        rise = np.einsum("ij,ij->i", ahead, normals) * np.einsum("ij,ij->i", back, normals)
+        level = np.einsum("ij,ij->i", ahead, back) - rise
+        return Angles(faces, across, level, normals)
+
+    unit = _unit(doubled(triangles))
+    normals, clear = _normals(faces, unit, ground, np.arange(len(faces.corners)), FEW)
+    degrees = measured(normals).degrees
+    close = np.minimum(np.abs(degrees - 180), np.minimum(degrees, 360 - degrees)) < NEAR
+    again = np.flatnonzero(close | ~clear)
+    normals[again] = _normals(faces, unit, ground, again, MANY)[0]
+    return measured(normals)
+
+
+def _normals(
+    faces: Faces, unit: Floats, ground: Ground, corners: Ints, n: int
+) -> tuple[Floats, Bools]:
+    """Normals (k, 3) at some corners from n x n places each, and whether those agree."""
+    places = faces.points[faces.corners]
+    here, middle = places[corners], faces.middles[faces.owner[corners]]
+    sides = [(here + places[at[corners]]) / 2 for at in (faces.following, faces.before)]
+    quarter = np.stack([here, sides[0], middle, sides[1]])
+    step = (np.arange(n) + 0.5) / n
+    s, t = np.repeat(step, n), np.tile(step, n)
+    weights = np.stack([(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t])
+    under = ground.under(np.einsum("qp,qkx->kpx", weights, quarter).reshape(-1, 3))
+    mean = unit[under].reshape(len(corners), n * n, 3).mean(axis=1)
+    return _unit(mean), np.asarray(np.linalg.norm(mean, axis=1) > AGREEING)
+
+
+def _unit(vectors: Floats) -> Floats:
+    """Vectors (k, 3) of length 1 in the same directions; 0 stays 0."""
+    return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=1), 1e-300)[:, None])

@@ -1,0 +1,106 @@
+"""What meshes are checked against: the surface of a problem, and what was imposed on it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from crossview.certificate import Certificate, Faces, Irregular, Reference, Sizes, certify
+from crossview.io import read_polygons
+from crossview.workflow.problem import Problem
+from crossview.workflow.solution import Solution
+from solvers.errors import CrossviewError
+from solvers.features import Features
+from solvers.quads import QuadMesh
+from solvers.surface import FloatArray
+
+
+def faces_in(path: str | Path) -> Faces:
+    """The faces in a file, whole.
+
+    Raises
+    ------
+    CrossviewError
+        It cannot be read, or holds no faces.
+    """
+    found = read_polygons(path)
+    try:
+        return Faces(found.points, found.sizes, found.corners)
+    except CrossviewError as error:
+        error.locate(str(path))
+        raise
+
+
+def faces_of(mesh: QuadMesh) -> Faces:
+    """The faces of a quad mesh."""
+    return Faces.of_one_size(mesh.vertices, mesh.quads)
+
+
+def reference(problems: Sequence[Problem], imposed: bool, wanted: int | None = None) -> Reference:
+    """Return what a mesh on the surfaces of problems is checked against.
+
+    Parameters
+    ----------
+    problems : sequence of Problem
+        One for each piece of the surface.
+    imposed : bool
+        Whether irregular vertices are to be the singularities and corners of the problems.
+    wanted : int, optional
+        How many quads there should be.
+    """
+    surfaces = [problem.surface for problem in problems]
+    first = np.cumsum([0] + [surface.n_vertices for surface in surfaces])
+    faces = [s.faces + start for s, start in zip(surfaces, first, strict=False)]
+    points = np.concatenate([surface.vertices for surface in surfaces])
+    features = [_segments(problem.features) for problem in problems]
+    return Reference(
+        Faces.of_one_size(points, np.concatenate(faces)),
+        np.concatenate(features),
+        _singularities(problems) if imposed else None,
+        _corners(problems) if imposed else None,
+        wanted,
+    )
+
+
+def certified(solution: Solution, mesh: QuadMesh, wanted: int | None = None) -> Certificate:
+    """Check the quads of a solution: its singularities, features kept and sizes are wanted.
+
+    Parameters
+    ----------
+    solution : Solution
+    mesh : QuadMesh
+    wanted : int, optional
+        How many quads there should be.
+    """
+    surface = solution.surface
+    sizes = Sizes(surface.vertices[surface.faces], solution.field.H[surface.faces])
+    against = reference([solution.problem], True, wanted)
+    against = replace(against, features=_segments(solution.features), sizes=sizes)
+    return certify(faces_of(mesh), against)
+
+
+def _segments(features: Features) -> FloatArray:
+    """The edges of features (k, 2, 3)."""
+    surface = features.surface
+    return surface.vertices[surface.edges[features.edges]]
+
+
+def _singularities(problems: Sequence[Problem]) -> Irregular:
+    places = [p.surface.positions([s.point for s in p.singularities]) for p in problems]
+    valences = [s.valence for p in problems for s in p.singularities]
+    return _without(4, np.concatenate(places), valences)
+
+
+def _corners(problems: Sequence[Problem]) -> Irregular:
+    places = [p.surface.vertices[list(p.chosen_corners)] for p in problems]
+    meeting = [2 - index for p in problems for index in p.chosen_corners.values()]
+    return _without(2, np.concatenate(places), meeting)
+
+
+def _without(regular: int, places: FloatArray, meeting: Sequence[int]) -> Irregular:
+    """The places where another number of quads meets than the regular one."""
+    numbers = np.array(meeting, dtype=np.int64)
+    return Irregular(places[numbers != regular], numbers[numbers != regular])
