@@ -121,7 +121,7 @@ def _corners(angles: Angles) -> Measures:
         "max_degrees": float(angles.degrees.max()),
         "inverted_corners": int(np.count_nonzero(angles.inverted)),
         "inverted_faces": len(np.unique(angles.faces.owner[angles.inverted])),
-        "excused_at_valence_2": int(np.count_nonzero(angles.excused)),
+        "excused_at_valence_2": len(np.unique(angles.faces.corners[angles.excused])),
         "pieces_inside_out": angles.inside_out,
         "min_scaled_jacobian": float(quality.min()),
         "mean_scaled_jacobian": float(quality.mean()),

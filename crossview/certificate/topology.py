@@ -12,12 +12,13 @@ from crossview.certificate.fault import Fault, Measures, first
 
 def counts(mesh: Faces) -> Measures:
     """How many vertices and faces there are, and how many of what should not be."""
+    four = (mesh.sizes == 4) & mesh.whole
     return {
         "vertices": len(mesh.points),
         "unused_vertices": len(mesh.points) - len(mesh.used),
         "faces": len(mesh.sizes),
-        "quads": int(np.count_nonzero(mesh.sizes == 4)),
-        "non_quads": int(np.count_nonzero(mesh.sizes != 4)),
+        "quads": int(np.count_nonzero(four)),
+        "non_quads": int(np.count_nonzero(~four)),
         "repeating_faces": int(np.count_nonzero(~mesh.whole)),
         "non_manifold_edges": len(mesh.crowded),
         "non_manifold_vertices": len(mesh.pinched),

@@ -75,8 +75,8 @@ def _lines(name: str, found: Certificate) -> Iterator[str]:
         f"mean {corners['mean_scaled_jacobian']:.3f}"
     )
     if corners["excused_at_valence_2"]:
-        number = counted(corners["excused_at_valence_2"], "corner")
-        yield f"  {number} of 180 degrees or more at valence 2, where that cannot be otherwise"
+        number = counted(corners["excused_at_valence_2"], "vertex")
+        yield f"  {number} of valence 2 with a corner of 180 degrees or more, as flat ones have"
     yield f"  irregular vertices {_numbers(measures['irregular']['found'])}"
     yield f"  on the boundary {_numbers(measures['irregular_on_boundary']['found'])}"
     distances = dict(measures["distances"])

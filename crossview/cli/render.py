@@ -152,7 +152,8 @@ def gallery(
     if output is None:
         raise CrossviewError("no folder for the results", "", "name one with -o, or --list")
     from crossview.export.figures import render as draw
-    from crossview.export.report import quads_summary, summary, write_files
+    from crossview.export.quads_report import quads_summary
+    from crossview.export.report import summary, write_files
 
     def work(
         name: str, directory: Path
@@ -174,7 +175,7 @@ def gallery(
         if not quiet:
             say(f"{name}: {summary(solution)}")
             if made is not None and quads is not None:
-                say(f"{name}: {quads_summary(made, quads)}")
+                say(f"{name}: {quads_summary(solution, made, quads)}")
 
 
 def _size(text: str) -> tuple[int, int]:

@@ -52,7 +52,8 @@ def solve(
     as_json
         Print the report, or a list of them for all components.
     """
-    from crossview.export.report import quads_summary, report, summary
+    from crossview.export.quads_report import quads_summary
+    from crossview.export.report import report, summary
 
     wanted = sizes.wanted(quads, "add --quads")
     kinds = _formats(formats, quads)
@@ -66,7 +67,7 @@ def solve(
         for solution, layout, made in results:
             say(summary(solution))
             if layout is not None and made is not None:
-                say(quads_summary(layout, made))
+                say(quads_summary(solution, layout, made))
         say(f"wrote {Path(output)}")
 
 

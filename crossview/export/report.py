@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from crossview.export.meshes import check_kind, write_mesh
+from crossview.export.quads_report import quads_report
 from crossview.export.vtk_bytes import save_vtk
 from crossview.export.vtp import (
     cross_lines,
@@ -101,47 +102,11 @@ def report(
         "forced_corners": _forced_corners(solution),
         **_integrability(solution),
         "layout": _layout(solution, layout),
-        **({} if quads is None else {"quads": _quads(quads)}),
+        **({} if quads is None else {"quads": quads_report(solution, quads)}),
         "residual": float(field.residual),
         "max_closing_error": float(field.max_closing_error),
         "seconds": {stage: round(time, 6) for stage, time in solution.seconds.items()},
     }
-
-
-def quads_summary(layout: QuadLayout, quads: QuadMesh) -> str:
-    """Counts and quality of the quads and their layout, in one line."""
-    quality = quads.scaled_jacobian
-    irregular, warning = sum(quads.irregular.values()), _inverted(quads)
-    patches = f"{layout.patches} {'patch' if layout.patches == 1 else 'patches'}, "
-    patches += "conforming" if layout.conforming else f"{len(layout.t_junctions)} T-junctions"
-    return (
-        f"{quads.n_quads} quads{_missed(quads)} in {patches}; "
-        f"{counted(irregular, 'irregular vertex')}, "
-        f"scaled Jacobian at least {quality.min():.2f}, mean {quality.mean():.3f}{warning}"
-    )
-
-
-def _missed(quads: QuadMesh) -> str:
-    """By how much the wanted number is missed, and the least there can be, if it is missed."""
-    chosen = quads.quantization
-    if chosen is None or not chosen.missed:
-        return ""
-    least = "" if chosen.n_fewest is None else f", about {chosen.n_fewest} is the least possible"
-    return f" ({chosen.n_wanted} wanted{least})"
-
-
-def _inverted(quads: QuadMesh) -> str:
-    """How many quads are not convex, and what helps; nothing does where two share 360 degrees."""
-    inverted = quads.scaled_jacobian <= 0
-    halves = (quads.valence == 2) & ~quads.on_boundary
-    wide = inverted & halves[quads.quads].any(axis=1)
-    said, others = "", np.count_nonzero(inverted & ~wide)
-    if others:
-        said += f"; {others} are inverted: try more quads"
-    if wide.any():
-        number = np.count_nonzero(wide)
-        said += f"; {number} have a corner of 180 degrees or more, as those around a valence 2 do"
-    return said
 
 
 def summary(solution: Solution) -> str:
@@ -271,26 +236,6 @@ def _layout(solution: Solution, layout: QuadLayout | None) -> dict[str, Any]:
         "conforming": None if layout is None else layout.conforming,
         "flips": None if layout is None else layout.inverted,
         "stiffened": None if layout is None else layout.mended,
-    }
-
-
-def _quads(mesh: QuadMesh) -> dict[str, Any]:
-    """Counts and quality of a quad mesh; valences are written as text, for they are keys."""
-    quality, chosen = mesh.scaled_jacobian, mesh.quantization
-    return {
-        "vertices": mesh.n_vertices,
-        "quads": mesh.n_quads,
-        "wanted": None if chosen is None else chosen.n_wanted,
-        "least_possible": None if chosen is None else chosen.n_fewest,
-        "non_quads": 0,
-        "patches": len(np.unique(mesh.patch)),
-        "irregular": {str(valence): count for valence, count in mesh.irregular.items()},
-        "irregular_on_boundary": {str(valence): count for valence, count in mesh.corners.items()},
-        "euler_characteristic": mesh.euler_characteristic,
-        "min_scaled_jacobian": float(quality.min()),
-        "mean_scaled_jacobian": float(quality.mean()),
-        "inverted": int(np.count_nonzero(quality <= 0)),
-        "max_distance_to_surface": mesh.max_distance_to_surface,
     }
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -65,16 +66,27 @@ def reference(problems: Sequence[Problem], imposed: bool, wanted: int | None = N
     )
 
 
-def certified(solution: Solution, mesh: QuadMesh, wanted: int | None = None) -> Certificate:
-    """Check the quads of a solution: its singularities, features kept and sizes are wanted.
+_GIVEN: WeakKeyDictionary[QuadMesh, Certificate] = WeakKeyDictionary()
+"""Certificates of meshes that still are: report and summary ask one after the other."""
+
+
+def certified(solution: Solution, mesh: QuadMesh) -> Certificate:
+    """Check the quads of a solution: its singularities, features kept, sizes and number are wanted.
 
     Parameters
     ----------
     solution : Solution
     mesh : QuadMesh
-    wanted : int, optional
-        How many quads there should be.
+        Of that solution; its certificate is kept as long as it is.
     """
+    if mesh not in _GIVEN:
+        _GIVEN[mesh] = _certified(solution, mesh)
+    return _GIVEN[mesh]
+
+
+def _certified(solution: Solution, mesh: QuadMesh) -> Certificate:
+    chosen = mesh.quantization
+    wanted = None if chosen is None else chosen.n_wanted
     surface = solution.surface
     sizes = Sizes(surface.vertices[surface.faces], solution.field.H[surface.faces])
     against = reference([solution.problem], True, wanted)

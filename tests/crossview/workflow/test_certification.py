@@ -1,0 +1,67 @@
+"""What solve makes is judged by the certificate, and the report carries what it finds."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import crossview as library
+from crossview.export.quads_report import quads_report, quads_summary
+from tests.command_line import Crossview
+
+
+@cache
+def made() -> tuple[library.Solution, library.QuadLayout, library.QuadMesh]:
+    solution = library.solve(library.read("disk-4"))
+    layout = library.layout(solution)
+    return solution, layout, library.quads(layout, 300)
+
+
+def test_the_report_carries_what_check_says_of_the_file(
+    crossview: Crossview, tmp_path: Path
+) -> None:
+    options = ["--quads", "--target-quads", "1500", "-o", tmp_path / "out"]
+    assert crossview("solve", "disk-4", *options).status == 0
+    told = json.loads((tmp_path / "out" / "report.json").read_text())["quads"]["certificate"]
+    asked = ["--case", "disk-4", "--target-quads", "1500", "--json"]
+    found = crossview("check", tmp_path / "out" / "quads.obj", *asked).json
+    assert told["right"]
+    assert told.pop("sizes")["slope"] == pytest.approx(1, abs=0.05)
+    assert _rounded(told) == _rounded(found)
+
+
+def _rounded(value: Any) -> Any:
+    """Numbers as a file of nine digits has them."""
+    if isinstance(value, dict):
+        return {key: _rounded(member) for key, member in value.items()}
+    return round(value, 4) if isinstance(value, float) else value
+
+
+def test_what_is_no_quad_is_counted() -> None:
+    solution, layout, mesh = made()
+    assert quads_report(solution, mesh)["non_quads"] == 0
+    quads = mesh.quads.copy()
+    quads[0, 1] = quads[0, 0]
+    broken = replace(mesh, quads=quads)
+    told = quads_report(solution, broken)
+    assert told["non_quads"] == 1
+    assert not told["certificate"]["right"]
+    assert "1 face with a vertex twice" in quads_summary(solution, layout, broken)
+
+
+def test_an_inverted_quad_is_told() -> None:
+    solution, layout, mesh = made()
+    inner = next(v for v in range(mesh.n_vertices) if not mesh.on_boundary[v])
+    vertices = mesh.vertices.copy()
+    vertices[inner] = mesh.vertices[mesh.quads[(mesh.quads == inner).any(axis=1)][0]].mean(axis=0)
+    quad = mesh.quads[(mesh.quads == inner).any(axis=1)][0]
+    across = quad[(list(quad).index(inner) + 2) % 4]
+    vertices[inner] += 0.6 * (mesh.vertices[across] - vertices[inner])
+    spoiled = replace(mesh, vertices=vertices)
+    assert quads_report(solution, spoiled)["inverted"] >= 1
+    assert "inverted: try more quads" in quads_summary(solution, layout, spoiled)
