@@ -79,6 +79,10 @@ def _with_selected(verb: Callable[[WindowVerbs, int], None], verbs: WindowVerbs)
         verb(verbs, index)
 
 
+def _with_all(verbs: WindowVerbs) -> tuple[int, ...]:
+    return verbs.session.state.focus.all
+
+
 def _tools() -> tuple[ActionSpec, ...]:
     return tuple(
         ActionSpec(
@@ -165,7 +169,7 @@ def _layers() -> tuple[ActionSpec, ...]:
     return tuple(
         ActionSpec(
             f"layer-{kind.name}",
-            f"Show {kind.label if kind.name == 'H' else kind.label.lower()}",
+            f"Show {kind.label if len(kind.label.split()[0]) < 3 else kind.label.lower()}",
             "View",
             lambda w, name=kind.name: w.session.looks.toggle_layer(name),  # type: ignore[misc]
             checked=lambda s, name=kind.name: s.layers[name].visible,  # type: ignore[misc]
@@ -211,6 +215,11 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "redo", enabled=lambda s: s.redo_name is not None,
     ),
     ActionSpec(
+        "select-all", "Select all", "Edit", lambda w: w.session.pointer.select_all(),
+        ("Ctrl+A",), tip="Select every singularity; Ctrl and a click adds one or takes one away",
+        enabled=_placed, separated=True,
+    ),
+    ActionSpec(
         "use-largest", "Use the largest piece", "Surface", lambda w: w.files.reopen("largest"),
         tip="Open the same again and keep its largest piece", enabled=_open,
     ),
@@ -248,25 +257,25 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ),
     ActionSpec(
         "raise", "Raise valence", "Singularities",
-        partial(_with_selected, lambda w, i: w.session.edits.step_valence(i, 1)), ("+", "="),
-        "plus", "One more quad at the selected singularity; also the wheel over it", _selected,
+        lambda w: w.session.edits.step_valence(1, *_with_all(w)), ("+", "="),
+        "plus", "One more quad at each selected singularity; also the wheel over it", _selected,
     ),
     ActionSpec(
         "lower", "Lower valence", "Singularities",
-        partial(_with_selected, lambda w, i: w.session.edits.step_valence(i, -1)), ("-",), "minus",
-        "One quad fewer at the selected singularity; also the wheel over it",
+        lambda w: w.session.edits.step_valence(-1, *_with_all(w)), ("-",), "minus",
+        "One quad fewer at each selected singularity; also the wheel over it",
         _selected,
     ),
     ActionSpec(
         "lock", "Locked", "Singularities",
-        partial(_with_selected, lambda w, i: w.session.edits.toggle_lock(i)), ("L",), "lock",
-        "Keep the selected singularity where it is", _selected,
+        lambda w: w.session.edits.toggle_lock(*_with_all(w)), ("L",), "lock",
+        "Keep the selected singularities where they are", _selected,
         _locked,
     ),
     ActionSpec(
         "delete", "Delete", "Singularities",
-        partial(_with_selected, lambda w, i: w.session.edits.remove(i)), ("Del", "Backspace"),
-        "trash", "Delete the selected singularity", _selected,
+        lambda w: w.session.edits.remove(*_with_all(w)), ("Del", "Backspace"),
+        "trash", "Delete the selected singularities", _selected,
     ),
     ActionSpec(
         "clear", "Delete all", "Singularities",

@@ -6,6 +6,7 @@ from enum import Enum, auto
 
 from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, Qt, Signal
 from PySide6.QtGui import QMouseEvent, QWheelEvent
+from PySide6.QtWidgets import QToolTip
 
 from crossview.gui.picking import Pick
 from crossview.gui.viewport import Viewport
@@ -98,7 +99,9 @@ class Mouse(QObject):
         self._moved |= away and bool(event.buttons())
         if self._grip is _Grip.SINGULARITY and self._moved:
             started = self._session.trials.start_drag(self._held)
-            self._grip = _Grip.DRAG if started else _Grip.CAMERA
+            self._grip = _Grip.DRAG if started else _Grip.NOTHING
+            if not started:
+                self._refuse(event.globalPosition().toPoint())
         if self._grip is _Grip.DRAG:
             pick = self._viewport.pick(event.position())
             if pick is not None:
@@ -107,9 +110,16 @@ class Mouse(QObject):
             return True
         if not event.buttons():
             self._hover(event.position())
-        elif self._grip is not _Grip.SINGULARITY:
+        elif self._grip is _Grip.CAMERA or event.buttons() != Qt.MouseButton.LeftButton:
             self._viewport.pass_on(event)
         return True
+
+    def _refuse(self, place: QPoint) -> None:
+        """Say at the mouse why what is held does not follow."""
+        self._viewport.plotter.setCursor(Qt.CursorShape.ForbiddenCursor)
+        self._session.pointer.select(self._held)
+        text = f"Singularity {self._held + 1} is locked: L unlocks it"
+        QToolTip.showText(place, text, self._viewport.plotter)
 
     def _release(self, event: QMouseEvent) -> bool:
         grip, self._grip = self._grip, _Grip.NOTHING
@@ -155,7 +165,7 @@ class Mouse(QObject):
         steps = int(self._wheel / NOTCH)
         self._wheel -= steps * NOTCH
         for _ in range(abs(steps)):
-            self._session.edits.step_valence(index, 1 if steps > 0 else -1)
+            self._session.edits.step_valence(1 if steps > 0 else -1, index)
         if steps:
             self._session.pointer.choose(index)
         return True

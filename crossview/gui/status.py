@@ -34,6 +34,7 @@ class Status:
 
     def __init__(self, bar: QStatusBar, session: Session, stop: QAction) -> None:
         self._session = session
+        self._pick: Pick | None = None
         self.hover, self.stage, self.frame = QLabel(), QLabel(), QLabel()
         self.bar = QProgressBar()
         self.bar.setRange(0, 100)
@@ -55,7 +56,11 @@ class Status:
         self._show_bar(False)
 
     def show_state(self, old: SessionState, new: SessionState) -> None:
-        """Follow the window's state."""
+        """Follow the window's state; what is read out is of the field that is shown."""
+        if old.shown_surface is not new.shown_surface:
+            self.show_hover(None)
+        elif old.field is not new.field or old.stale is not new.stale:
+            self.show_hover(self._pick)
         if old.progress is not new.progress:
             self._show_progress(new.progress)
 
@@ -75,12 +80,14 @@ class Status:
 
     def show_hover(self, pick: Pick | None) -> None:
         """Read out the field at the place under the mouse."""
-        field = self._session.state.field
+        self._pick = pick
+        state = self._session.state
+        field = None if state.stale else state.field
         if pick is None:
             self.hover.setText("")
             return
         height = None
-        if field is not None and field.surface is self._session.state.shown_surface:
+        if field is not None and field.surface is state.shown_surface:
             corners = field.H[field.surface.faces[pick.point.face]]
             height = float(np.dot(corners, pick.point.barycentric))
         self.hover.setText(hover(height, pick.point.face))

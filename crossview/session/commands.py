@@ -107,6 +107,20 @@ class LockSingularity:
 
 
 @dataclass(frozen=True)
+class Together:
+    """Several changes as one step."""
+
+    commands: tuple[Command, ...]
+    name: str
+
+    def apply(self, document: Document) -> Document:
+        """Return the document after each of them, in order."""
+        for command in self.commands:
+            document = command.apply(document)
+        return document
+
+
+@dataclass(frozen=True)
 class RemoveSingularities:
     """Delete the singularities with these indices."""
 

@@ -17,6 +17,9 @@ from solvers.singularities import (
 )
 from solvers.surface import TriSurface
 
+EDITED = ", edited"
+"""Ends the title of a case whose configuration is no longer as it says."""
+
 
 @dataclass(frozen=True, eq=False)
 class Document:
@@ -32,22 +35,32 @@ class Document:
         Boundary vertex -> index, chosen once per surface where ``problem.corners`` is None.
     source : Case
         What it was opened from; names the surface when the case is saved.
+    described : Problem or None
+        What the title of `source` says something about.
     """
 
     name: str
     problem: Problem
     corners: Mapping[int, int]
     source: Case
+    described: Problem | None = None
 
     @classmethod
     def from_case(cls, name: str, case: Case) -> Document:
         """Load the surface of `case` and place its singularities and corners."""
         problem = Problem.from_case(case)
-        return cls(name, problem, problem.chosen_corners, case)
+        return cls(name, problem, problem.chosen_corners, case, problem)
 
     def to_case(self) -> Case:
         """Return the case that opens as this document."""
-        return self.problem.to_case(self.source.surface, self.source.title)
+        return self.problem.to_case(self.source.surface, self.title)
+
+    @property
+    def title(self) -> str:
+        """The title of the case; what it says of the configuration is of before any edit."""
+        title, described = self.source.title, self.described
+        same = described is not None and self.problem.same_but_method(described)
+        return title if same or not title or title.endswith(EDITED) else title + EDITED
 
     @property
     def surface(self) -> TriSurface:

@@ -56,8 +56,8 @@ class Facts:
         What undo and redo would do.
     shown : Nothing, Solved, Provisional, Iterating or Moving
         What is shown of a field.
-    comparing : bool
-        Whether the error density of `start` is shown in place of that of `field`.
+    uncompared : frozenset of str or None
+        While the error density of `start` is shown: the scalars that were visible before.
     tool : SelectTool, AddTool or MarkTool
         What a click does.
     any_valence : int
@@ -88,7 +88,7 @@ class Facts:
     undo_name: str | None = None
     redo_name: str | None = None
     shown: Shown = dataclasses.field(default_factory=Nothing)
-    comparing: bool = False
+    uncompared: frozenset[str] | None = None
     tool: Tool = dataclasses.field(default_factory=SelectTool)
     any_valence: int = 7
     focus: Focus = dataclasses.field(default_factory=Focus)
@@ -102,6 +102,19 @@ class Facts:
     dark: bool = False
     message: Message | None = None
     progress: Progress | None = None
+
+    @property
+    def comparing(self) -> bool:
+        """Whether the error density of `start` is shown in place of that of `field`."""
+        return self.uncompared is not None
+
+    @property
+    def stale(self) -> bool:
+        """Whether the field that is drawn was solved for another configuration."""
+        document, shown = self.document, self.shown
+        if document is None or not isinstance(shown, Solved) or self.solved:
+            return False
+        return not _unlocked(shown.solution.problem).same_but_method(_unlocked(document.problem))
 
     @property
     def modified(self) -> bool:
@@ -310,3 +323,9 @@ class Facts:
     def lifted(self, point: SurfacePoint) -> SurfacePoint:
         """Return a point of the shown surface as one of the document's."""
         return point if self.base is None else self.base.refinement.lift(point)
+
+
+def _unlocked(problem: Problem) -> Problem:
+    """Return a problem without locks, which change no field."""
+    free = tuple(dataclasses.replace(s, locked=False) for s in problem.singularities)
+    return dataclasses.replace(problem, singularities=free)

@@ -53,8 +53,8 @@ class Focus:
     ----------
     selected : int or None
         The selected singularity.
-    partner : int or None
-        A second one: see `pair`.
+    others : frozenset of int
+        Further ones that are selected with it.
     hovered : int or None
         The singularity under the mouse.
     condition : int or None
@@ -64,7 +64,7 @@ class Focus:
     """
 
     selected: int | None = None
-    partner: int | None = None
+    others: frozenset[int] = frozenset()
     hovered: int | None = None
     condition: int | None = None
     pinned: int | None = None
@@ -72,9 +72,15 @@ class Focus:
     @property
     def pair(self) -> tuple[int, int] | None:
         """The two singularities that are selected, if two are."""
-        if self.selected is None or self.partner is None or self.partner == self.selected:
+        if self.selected is None or len(self.others) != 1:
             return None
-        return self.partner, self.selected
+        (other,) = self.others
+        return other, self.selected
+
+    @property
+    def all(self) -> tuple[int, ...]:
+        """All that are selected, in ascending order."""
+        return () if self.selected is None else tuple(sorted({self.selected, *self.others}))
 
     @property
     def followed(self) -> int | None:
@@ -82,15 +88,23 @@ class Focus:
         return self.pinned if self.condition is None else self.condition
 
     def on(self, index: int | None, *, both: bool = False) -> Focus:
-        """Return this with `index` selected; with `both` the one before stays selected too."""
-        partner = self.selected if both and index != self.selected else None
-        return replace(self, selected=index, partner=partner)
+        """Return this with `index` selected.
 
-    def among(self, count: int) -> Focus:
-        """Return what is left of this after an edit that leaves `count` singularities."""
+        With `both` what was selected stays so, and one that was is so no longer.
+        """
+        if not both or index is None:
+            return replace(self, selected=index, others=frozenset())
+        if index not in self.all:
+            return replace(self, selected=index, others=frozenset(self.all))
+        left = [one for one in self.all if one != index]
+        return replace(self, selected=left[-1] if left else None, others=frozenset(left[:-1]))
+
+    def among(self, before: int, count: int) -> Focus:
+        """Return what is left of this after an edit of `before` singularities leaves `count`."""
         gone = self.selected is not None and self.selected >= count
         selected = None if gone else self.selected
-        return replace(self, selected=selected, partner=None, hovered=None)
+        others = self.others if count == before else frozenset()
+        return replace(self, selected=selected, others=others, hovered=None)
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,10 +15,14 @@ from crossview.session.state import SessionState
 from crossview.view.colors import condition_color
 from crossview.view.field import feature_lines, field_view
 from crossview.view.meshes import curves_of, patches_of, quads_of, t_junctions_of
+from crossview.view.scalars import SURFACE_SCALARS
 from crossview.view.scene_view import Background, LayerSettings, SceneView
 from crossview.view.values import Elements, Marker
 from solvers.fields import CrossField
 from solvers.surface import FloatArray, IntArray, TriSurface
+
+PALE = 0.3
+"""What is left of the opacity of a field that is no longer that of the configuration. Chosen."""
 
 POOR_QUALITY = 0.1
 """`TriSurface.triangle_quality` below which triangles are shown as poor. Chosen."""
@@ -50,7 +54,7 @@ def scene_view(state: SessionState, held: Ranges = NO_RANGES) -> SceneView:
     field = state.field if state.field is not None and state.field.surface is surface else None
     positions = document.surface.positions([s.point for s in state.singularities])
     condition = state.focus.condition
-    selected = (state.focus.selected, state.focus.partner)
+    selected = state.focus.all
     markers = tuple(
         Marker(_triple(position), s.valence, selected=i in selected, locked=s.locked)
         for i, (s, position) in enumerate(zip(state.singularities, positions, strict=True))
@@ -72,7 +76,7 @@ def scene_view(state: SessionState, held: Ranges = NO_RANGES) -> SceneView:
         problem=Elements(faces=poor_faces(surface)) if state.poor else state.pointed,
         title=_title(state, document),
         background=background,
-        layers=_layers(state.layers, held),
+        layers=_dimmed(_layers(state.layers, held)) if state.stale else _layers(state.layers, held),
     )
 
 
@@ -130,7 +134,7 @@ def _loop(state: SessionState) -> IntArray | None:
 
 
 def _title(state: SessionState, document: Document) -> str:
-    title = document.source.title or document.name
+    title = document.title or document.name
     shown = state.comparing and state.layers["error"].visible and _start(state) is not None
     return f"Error at the start \u2013 {title}" if shown else title
 
@@ -148,6 +152,15 @@ def _layers(layers: Mapping[str, LayerSettings], held: Ranges) -> Mapping[str, L
         if layers[name].value_range is None
     }
     return {**layers, **kept}
+
+
+def _dimmed(layers: Mapping[str, LayerSettings]) -> Mapping[str, LayerSettings]:
+    """Return the layers with what is drawn of the field pale."""
+    pale = {
+        name: replace(layers[name], opacity=PALE * layers[name].opacity)
+        for name in (*SURFACE_SCALARS, "crosses", "separatrices")
+    }
+    return {**layers, **pale}
 
 
 def _triple(position: FloatArray) -> tuple[float, float, float]:

@@ -33,6 +33,7 @@ from crossview.session.shown import (
     Solved,
 )
 from crossview.session.waypoints import Waypoint
+from crossview.view.scalars import SURFACE_SCALARS
 from crossview.view.scene_view import LayerSettings
 from crossview.workflow.pipeline import Solution
 from solvers.progress import Progress
@@ -55,7 +56,8 @@ class SessionState(Facts):
             shown = Nothing()
             tool = SelectTool() if isinstance(tool, MarkTool) else tool
         else:
-            focus = self.focus.among(len(document.singularities))
+            had = () if self.document is None else self.document.singularities
+            focus = self.focus.among(len(had), len(document.singularities))
             if not document.budget.satisfied:
                 shown = Nothing(self.base)
         changed = replace(
@@ -196,8 +198,12 @@ class SessionState(Facts):
         return self.said(None) if gone else self
 
     def with_layer(self, name: str, settings: LayerSettings) -> SessionState:
-        """Return the state with other settings of one layer."""
-        return replace(self, layers={**self.layers, name: settings})
+        """Return the state with other settings of one layer; of scalars one at most is visible."""
+        layers = {**self.layers, name: settings}
+        if settings.visible and name in SURFACE_SCALARS:
+            hidden = (other for other in SURFACE_SCALARS if other != name)
+            layers |= {other: replace(layers[other], visible=False) for other in hidden}
+        return replace(self, layers=layers)
 
     def with_layer_shown(self, name: str, visible: bool = True) -> SessionState:
         """Return the state with a layer shown, or hidden."""

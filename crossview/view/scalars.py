@@ -49,6 +49,9 @@ SCALARS = {
 }
 """By the name of their layer; of several that are visible the first is shown."""
 
+SURFACE_SCALARS = tuple(name for name in SCALARS if name != "quads")
+"""Those that colour the triangles: in the window one of them at a time."""
+
 
 def shown_scalar(view: SceneView) -> str:
     """Return which scalar colours the surface or the quads in its place, "" for none."""

@@ -109,6 +109,7 @@ def test_the_error_density_before_and_after_on_one_range(hand: Hand, isotropic_c
     choose(hand, "Anisotropic")
     scene, panel = hand.window.viewport.scene, hand.window.convergence_panel
     camera = scene.camera
+    hand.trigger("layer-error")
     panel.button.click()
     before, limits = hand.picture(), scene.limits
     assert actions["compare"].isChecked()

@@ -69,10 +69,12 @@ class ConvergencePanel(QWidget):
             self.plot.show_energies(())
             self.plot.empty_text = "No iterations yet"
             self._say(WAITING, "Nothing is solved yet.", "")
+        elif new.trial is not None and new.trial.drag:
+            self._say(WAITING, "Follows the mouse; solved when it is let go.", "")
         elif new.solved and new.field is solution.field:
             self._show_solution(solution)
-        else:  # what is said is of before: no colour stands for it until there is news
-            self._show_dot(WAITING)
+        else:
+            self._say(WAITING, "Changed: not solved yet.", "")
 
     def _show_solution(self, solution: Solution) -> None:
         field, verdict = solution.field, solution.verdict
@@ -81,7 +83,8 @@ class ConvergencePanel(QWidget):
         self.plot.empty_text = NO_ITERATIONS.get(solution.problem.method, "No iterations")
         self.plot.show_energies(so_far if iterated else ())
         said = str(verdict) if field.convergence.converged else f"{STOPPED} {verdict}"
-        facts = [aspect(field.max_log_aspect)]
+        quads = verdict.status in ("valid", "stretched")
+        facts = [aspect(field.max_log_aspect)] if quads else []
         if solution.integrated is not None:
             facts.insert(0, energies(so_far))
         self._say(COLORS[verdict.status], said, "\n".join(facts))

@@ -48,6 +48,9 @@ class FeaturesBox(QWidget):
         )
         self.clear.setText("Clear")
         self.clear.setToolTip("No features any more")
+        self.mark.setEnabled(False)
+        self.clear.setEnabled(False)
+        self.angle.setAccessibleName("Angle that features bend by, degrees")
         self.found = QLabel()
         self.found.setWordWrap(True)
         self._still = QTimer(self)
@@ -72,6 +75,7 @@ class FeaturesBox(QWidget):
     def show_state(self, old: SessionState, new: SessionState) -> None:
         """Follow the window's state."""
         self.mark.setChecked(new.mark_tool is not None)
+        self.mark.setEnabled(new.document is not None)
         seen = ("document", "feature_trial", "field", "base", "mark_tool")
         if all(getattr(old, name) is getattr(new, name) for name in seen):
             return
@@ -109,7 +113,11 @@ def _found(state: SessionState) -> str:
     features = state.document.problem.features if trial is None else trial.features
     if not len(features):
         hint = "click edges to mark them; Shift: the path from the last click"
-        return hint.capitalize() if state.mark_tool is not None else ""
+        angle = None if trial is None else trial.marking.dihedral_degrees
+        if trial is None:
+            angle = state.document.problem.marking.dihedral_degrees
+        none = "" if angle is None else f"No edge bends by more than {angle:g}\u00b0"
+        return hint.capitalize() if state.mark_tool is not None else none
     text = f"{count(len(features), 'edge')} in {count(len(features.curves), 'curve')}"
     field = state.field_along_features
     if trial is None and field is not None:

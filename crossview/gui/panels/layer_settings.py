@@ -15,13 +15,14 @@ from PySide6.QtWidgets import (
     QDoubleSpinBox,
     QFormLayout,
     QHBoxLayout,
+    QLabel,
     QSlider,
     QWidget,
 )
 
 from crossview.scene import LayerKind, LayerSettings
 from crossview.session.session import Session
-from crossview.view.colors import CYCLIC, DIVERGING, color_table
+from crossview.view.colors import BAD, CYCLIC, DIVERGING, color_table
 from crossview.view.scalars import SCALARS
 
 STEPS = 100
@@ -76,6 +77,7 @@ class LayerEditor(QWidget):
     ) -> None:
         slider = QSlider(Qt.Orientation.Horizontal)
         slider.setObjectName(setting)
+        slider.setAccessibleName(title)
         slider.setRange(0, STEPS)
         slider.valueChanged.connect(lambda at: self._set(**{setting: value(at)}))
         self._form.addRow(title, slider)
@@ -83,7 +85,7 @@ class LayerEditor(QWidget):
         def refresh(settings: LayerSettings) -> None:
             with QSignalBlocker(slider):
                 slider.setValue(step(getattr(settings, setting)))
-            slider.setToolTip(f"{getattr(settings, setting):.2f}")
+            slider.setToolTip(f"{title} {getattr(settings, setting):.2f}")
 
         self._refresh.append(refresh)
 
@@ -131,6 +133,8 @@ class LayerEditor(QWidget):
     def _add_range(self) -> None:
         auto = QCheckBox("Range 0 to 1" if self._name == "quads" else "Fit range to data")
         low, high = _number(-1.0), _number(1.0)
+        low.setAccessibleName("Least value of the colours")
+        high.setAccessibleName("Largest value of the colours")
         pair = QHBoxLayout()
         pair.setContentsMargins(0, 0, 0, 0)
         pair.addWidget(low)
@@ -141,6 +145,7 @@ class LayerEditor(QWidget):
                 self._set(value_range=None)
             elif low.value() < high.value():
                 self._set(value_range=(low.value(), high.value()))
+            wrong.setVisible(not auto.isChecked() and low.value() >= high.value())
 
         def refresh(settings: LayerSettings) -> None:
             with QSignalBlocker(auto), QSignalBlocker(low), QSignalBlocker(high):
@@ -156,6 +161,11 @@ class LayerEditor(QWidget):
         high.valueChanged.connect(changed)
         self._form.addRow(auto)
         self._form.addRow("Range", pair)
+        wrong = QLabel("Not taken: the first must be the smaller one")
+        wrong.setWordWrap(True)
+        wrong.setStyleSheet(f"color: {BAD}")
+        wrong.hide()
+        self._form.addRow(wrong)
         self._refresh.append(refresh)
 
 

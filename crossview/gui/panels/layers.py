@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QSize
+from PySide6.QtCore import QEvent, QObject, QSize, Qt
+from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QFrame,
@@ -30,6 +31,8 @@ class LayersPanel(QWidget):
         super().__init__(parent)
         self._session = session
         self.list = QListWidget()
+        self.list.setAccessibleName("Layers")
+        self.list.installEventFilter(self)
         self.list.setFrameShape(QFrame.Shape.NoFrame)
         self.list.setIconSize(QSize(18, 18))
         self.list.setUniformItemSizes(True)
@@ -64,6 +67,14 @@ class LayersPanel(QWidget):
             self.editors[kind.name].show_settings(new.layers[kind.name])
             if visible and old is not None and not old.layers[kind.name].visible:
                 self.list.setCurrentRow(row)  # its settings are at hand
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Let Space do what a click on the eye does."""
+        space = isinstance(event, QKeyEvent) and event.key() == Qt.Key.Key_Space
+        if event.type() == QEvent.Type.KeyPress and space:
+            self._session.looks.toggle_layer(LAYERS[self.list.currentRow()].name)
+            return True
+        return super().eventFilter(watched, event)
 
     def _pressed(self, item: QListWidgetItem) -> None:
         place = self.list.viewport().mapFromGlobal(self.list.cursor().pos())

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QSize, Qt
-from PySide6.QtGui import QAction, QGuiApplication
+from PySide6.QtCore import QEvent, QModelIndex, QObject, QPersistentModelIndex, QSize, Qt
+from PySide6.QtGui import QAction, QGuiApplication, QKeyEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
+    QApplication,
     QFrame,
     QHBoxLayout,
     QHeaderView,
@@ -24,7 +25,7 @@ from PySide6.QtWidgets import (
 
 from crossview.gui.icons import icon
 from crossview.gui.panels.singularity_model import LOCK, POSITION, VALENCE, SingularityModel
-from crossview.session.commands import MAX_VALENCE, MIN_VALENCE
+from crossview.session.commands import MIN_VALENCE
 from crossview.session.session import Session
 from crossview.session.state import SessionState
 
@@ -40,9 +41,21 @@ class ValenceDelegate(QStyledItemDelegate):
     ) -> QWidget:
         """Return a spin box over the allowed valences."""
         editor = QSpinBox(parent)
-        editor.setRange(MIN_VALENCE, MAX_VALENCE)
+        editor.setRange(MIN_VALENCE, 99)  # what is not offered is refused with the reason
         editor.setFrame(False)
         return editor
+
+    def eventFilter(self, editor: QObject, event: QEvent) -> bool:
+        """Let Return end the editing, though it is also the key that begins it."""
+        ends = (Qt.Key.Key_Return, Qt.Key.Key_Enter)
+        if (
+            event.type() == QEvent.Type.ShortcutOverride
+            and isinstance(event, QKeyEvent)
+            and event.key() in ends
+        ):
+            event.accept()
+            return True
+        return super().eventFilter(editor, event)
 
 
 class SingularitiesPanel(QWidget):
@@ -54,6 +67,7 @@ class SingularitiesPanel(QWidget):
         super().__init__(parent)
         self._session = session
         self._actions = actions
+        self._before: QWidget | None = None
         self.model = SingularityModel(session, self)
         self.table = self._make_table()
         buttons = QHBoxLayout()
@@ -87,9 +101,15 @@ class SingularitiesPanel(QWidget):
         self._select(new.focus.selected)
 
     def edit(self, row: int) -> None:
-        """Edit the valence of singularity `row` in its cell."""
+        """Edit the valence of singularity `row` in its cell; then the focus goes back."""
+        self._before = QApplication.focusWidget()
         self.table.setFocus()
         self.table.edit(self.model.index(row, VALENCE))
+
+    def _edited(self) -> None:
+        before, self._before = self._before, None
+        if before is not None:
+            before.setFocus()
 
     def _make_table(self) -> QTableView:
         table = QTableView()
@@ -98,7 +118,11 @@ class SingularitiesPanel(QWidget):
         table.setShowGrid(False)
         table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
         table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
-        table.setItemDelegateForColumn(VALENCE, ValenceDelegate(table))
+        delegate = ValenceDelegate(table)
+        delegate.closeEditor.connect(self._edited, Qt.ConnectionType.QueuedConnection)
+        table.setItemDelegateForColumn(VALENCE, delegate)
+        table.setTabKeyNavigation(False)
+        table.setAccessibleName("Singularities")
         table.setIconSize(QSize(14, 14))
         table.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         table.verticalHeader().hide()

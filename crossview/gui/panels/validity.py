@@ -168,9 +168,8 @@ class ValidityPanel(QWidget):
         if old is not None and all(getattr(old, name) is getattr(new, name) for name in seen):
             return
         self._show_budget(new)
-        if old is None or old.document is not new.document:
-            offers = () if new.document is None else mendings(new.document)
-            self._show_offers(offers)
+        if old is None or _offers(old) != _offers(new):
+            self._show_offers(mendings(new.document) if _offers(new) and new.document else ())
         self._show_conditions(new)
 
     def _show_budget(self, state: SessionState) -> None:
@@ -195,7 +194,8 @@ class ValidityPanel(QWidget):
             else f"{signed(-budget.missing)} too many",
         )
         previewing = state.trial is not None and not state.trial.drag
-        text = "if placed here" if previewing else ""
+        placed = "if placed here: click to place it" if budget.satisfied else "if placed here"
+        text = placed if previewing else ""
         if theorem is not None:
             text = f"{theorem} {text}".rstrip()
         elif not budget.satisfied and not previewing:
@@ -249,6 +249,13 @@ class ValidityPanel(QWidget):
             row.clicked.connect(lambda number=number: self._session.pointer.toggle_pin(number))
             self._row_layout.insertWidget(number, row)
             self.rows.append(row)
+
+
+def _offers(state: SessionState) -> int | None:
+    """Return what the remedies offered depend on; None: what the mouse carries is one itself."""
+    trial, budget = state.trial, state.budget
+    placing = trial is not None and not trial.drag and budget is not None and budget.satisfied
+    return None if placing else id(state.document)
 
 
 def _button(action: QAction) -> QPushButton:

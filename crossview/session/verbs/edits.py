@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from crossview.session.commands import (
+    MAX_VALENCE,
+    MIN_VALENCE,
     AddSingularities,
     ChangeValence,
     ChooseMethod,
     Command,
     LockSingularity,
     RemoveSingularities,
+    Together,
     next_valence,
 )
 from crossview.session.document import Document
 from crossview.session.history import History
 from crossview.session.store import Store
 from crossview.session.verbs.solving import Solving
+from solvers.errors import CrossviewError
 from solvers.singularities import Singularity
 from solvers.surface import SurfacePoint
 
@@ -70,17 +75,27 @@ class Edits:
             self._store.update(self._store.state.selecting(newest))
 
     def change_valence(self, index: int, valence: int) -> None:
-        """Give singularity `index` another valence; 4 is regular and not taken."""
-        if valence not in (4, self._valence(index)):
+        """Give singularity `index` another valence; one that there is not is refused."""
+        if valence == 4 or not MIN_VALENCE <= valence <= MAX_VALENCE:
+            reason = "is regular" if valence == 4 else "is not offered"
+            advice = f"choose from {MIN_VALENCE} to {MAX_VALENCE}, but 4"
+            self._store.fail(CrossviewError(f"valence {valence} {reason}", "", advice), "edit")
+        elif valence != self._valence(index):
             self.do(ChangeValence(index, valence))
 
-    def step_valence(self, index: int, step: int) -> None:
-        """Raise or lower the valence by one, past 4."""
-        self.change_valence(index, next_valence(self._valence(index), step))
+    def step_valence(self, step: int, *indices: int) -> None:
+        """Raise or lower valences by one, past 4, within the limits."""
+        following = {i: next_valence(self._valence(i), step) for i in indices}
+        changes = [ChangeValence(i, v) for i, v in following.items() if v != self._valence(i)]
+        self._do_all(changes, f"change {len(changes)} valences")
 
-    def toggle_lock(self, index: int) -> None:
-        """Lock singularity `index`, or unlock it."""
-        self.do(LockSingularity(index, not self._store.state.singularities[index].locked))
+    def toggle_lock(self, *indices: int) -> None:
+        """Lock singularities, or unlock them if all are locked."""
+        lock = not all(self._store.state.singularities[i].locked for i in indices)
+        word = "lock" if lock else "unlock"
+        self._do_all(
+            [LockSingularity(i, lock) for i in indices], f"{word} {len(indices)} singularities"
+        )
 
     def remove(self, *indices: int) -> None:
         """Delete singularities."""
@@ -91,6 +106,11 @@ class Edits:
         document = self._store.state.document
         if document is not None and document.problem.method != method:
             self.do(ChooseMethod(method))
+
+    def _do_all(self, commands: Sequence[Command], name: str) -> None:
+        """Make several changes one step; one alone keeps its name."""
+        if commands:
+            self.do(commands[0] if len(commands) == 1 else Together(tuple(commands), name))
 
     def _valence(self, index: int) -> int:
         return self._store.state.singularities[index].valence

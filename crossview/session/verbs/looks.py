@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from crossview.session.store import Store
 from crossview.session.verbs.solving import Solving
+from crossview.view.scalars import SURFACE_SCALARS
 from crossview.view.scene_view import LayerSettings
 
 
@@ -35,8 +36,15 @@ class Looks:
 
     def compare(self) -> None:
         """Show the error density of the start, or of the result again, on the same range."""
-        state = self._store.state.with_layer_shown("error")
-        self._store.update(replace(state, comparing=not state.comparing))
+        state = self._store.state
+        before = state.uncompared
+        if before is None:
+            seen = frozenset(name for name in SURFACE_SCALARS if state.layers[name].visible)
+            self._store.update(replace(state.with_layer_shown("error"), uncompared=seen))
+            return
+        for name in SURFACE_SCALARS:
+            state = state.with_layer_shown(name, name in before)
+        self._store.update(replace(state, uncompared=None))
 
     def toggle_dark(self) -> None:
         """Draw on a dark background, or on white again."""

@@ -76,7 +76,7 @@ class Moves(VerbGroup):
         if state.document is not None:
             alignment = "curvature" if state.along_curvature else "smoothness"
             # on their way there are none
-            self._store.update(state.focused(replace(state.focus, selected=None, partner=None)))
+            self._store.update(state.focused(state.focus.on(None)))
             place = partial(
                 place_natural, state.document, method, alignment, fewest=state.fewest_natural
             )

@@ -23,6 +23,12 @@ class Pointer:
         """Select singularity `index`; with `both` the one selected before stays selected too."""
         self._to(self._focus.on(index, both=both))
 
+    def select_all(self) -> None:
+        """Select every singularity, the last one foremost."""
+        count = len(self._store.state.singularities)
+        if count:
+            self._to(replace(self._focus, selected=count - 1, others=frozenset(range(count - 1))))
+
     def choose(self, index: int) -> None:
         """Select singularity `index` in place of the one selected; a second one stays."""
         self._store.update(self._store.state.selecting(index))

@@ -20,6 +20,9 @@ from solvers.surface import IntArray
 
 T = TypeVar("T")
 
+MOST_KEPT = 1_000_000
+"""Triangles of all solutions that are kept for undo. Chosen: with their factors about 2 GB."""
+
 STILL = 0.15
 """How long the mouse is still before separatrices left out in a drag are traced, seconds."""
 
@@ -41,6 +44,7 @@ class Solving:
         self._when_stopped: Callable[[], None] = self._say_stopped
         self._pursuits: list[Callable[[], bool]] = [self._cut]
         self._tracer = LiveTracer()
+        self._kept: list[Solved] = []
         self._still = loop.timer(STILL, self._trace_live)
 
     @property
@@ -56,19 +60,36 @@ class Solving:
         stopped: Callable[[], None] | None = None,
     ) -> None:
         """Run any job in place of what runs now; `stopped` is called if the user stops it."""
-        self._still.stop()
         self._when_stopped = stopped or self._say_stopped
-        self._store.update(self._store.state.work_ended().unsaid("stop"))
+        self._submit(job, done, fail)
+        # it can be stopped from now on, long before it tells of itself
+        state = self._store.state.work_ended().unsaid("stop")
+        self._store.update(state.progressed(Progress("starting", 0.0)))
+
+    def _submit(
+        self,
+        job: Callable[[], Generator[Progress, None, T]],
+        done: Callable[[T], None],
+        fail: Callable[[Exception], None],
+    ) -> None:
+        self._still.stop()
         self._background.submit(job, done, fail)
 
     def follow(self) -> None:
-        """Drop what was asked before and bring the results in line with the present document."""
+        """Drop what was asked before and bring the results in line with the present document.
+
+        What was solved for this very document before is shown at once.
+        """
+        self._keep(self._store.state.last)
         self._background.forget()
         self._store.update(self._store.state.work_ended().unsaid("solve", "stop"))
         document, base = self._store.state.document, self._store.state.base
         if document is None:
             return
-        if document.budget.satisfied:
+        kept = next((one for one in self._kept if one.solution.problem is document.problem), None)
+        if kept is not None:
+            self._show(kept)
+        elif document.budget.satisfied:
             self.solve()
         elif base is None:
             self.run(partial(prepare, document), self._show_base, self._failed)
@@ -91,7 +112,7 @@ class Solving:
         """Show the field of an edit on the kept factor; one that has none yet shows none."""
         traced = self._store.state.layers["separatrices"].visible
         job = partial(self._tracer.follow, edit, traced)
-        self.run(job, self._show_live, lambda error: None)
+        self._submit(job, self._show_live, lambda error: None)
 
     def pursue_also(self, pursuit: Callable[[], bool]) -> None:
         """Let `pursuit` start something, and say whether it did, when there is time for it."""
@@ -128,6 +149,17 @@ class Solving:
         self._store.update(self._store.state.solution_found(solved))
         self.pursue()
 
+    def _keep(self, solved: Solved | None) -> None:
+        """Keep a solution for undo, the newest first, as many as memory should bear."""
+        if solved is None:
+            return
+        others = [one for one in self._kept if one.solution is not solved.solution]
+        self._kept, triangles = [], 0
+        for one in (solved, *others):
+            triangles += len(one.base.surface.faces)
+            if triangles <= MOST_KEPT or not self._kept:
+                self._kept.append(one)
+
     def _cut(self) -> bool:
         """Compute the cut graph when its layer is visible and it is not there yet."""
         state, shown = self._store.state, self._store.state.shown
@@ -152,11 +184,8 @@ class Solving:
         """Trace what was left out for speed, now that the mouse is still."""
         state = self._store.state
         if state.trial is not None and state.field is not None and not self.busy:
-            self.run(
-                partial(self._tracer.catch_up, state.field),
-                self._show_live,
-                lambda error: None,
-            )
+            job = partial(self._tracer.catch_up, state.field)
+            self._submit(job, self._show_live, lambda error: None)
 
     def _failed(self, error: Exception) -> None:
         self._store.update(self._store.state.no_solution())

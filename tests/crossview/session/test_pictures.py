@@ -24,7 +24,7 @@ def solved() -> SessionState:
 
 
 def test_the_singularities_are_drawn_where_they_are(solved: SessionState) -> None:
-    view = scene_view(solved.focused(Focus(selected=2, partner=5)))
+    view = scene_view(solved.focused(Focus(selected=2, others=frozenset({5}))))
     document = known(solved.document)
     places = document.surface.positions([s.point for s in document.singularities])
     np.testing.assert_allclose([m.position for m in view.singularities], places)

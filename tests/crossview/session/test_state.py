@@ -186,7 +186,7 @@ def test_singularities_on_their_way(solved: SessionState, document: Document) ->
 
 def test_indices_that_do_not_add_up_have_no_field(solved: SessionState, document: Document) -> None:
     fewer = RemoveSingularities(frozenset({7})).apply(document)
-    selected = solved.focused(Focus(selected=7, partner=2, pinned=0))
+    selected = solved.focused(Focus(selected=7, others=frozenset({2}), pinned=0))
     refused = agreeing(selected.document_changed(fewer, "delete singularity 8", None))
     assert refused.field is None
     assert refused.solution is None
@@ -239,5 +239,5 @@ def test_two_are_selected_with_the_second_held() -> None:
     assert focus.pair == (2, 4)
     assert focus.on(4, both=True).pair is None  # the same one twice
     assert focus.on(1).pair is None
-    assert focus.among(3) == Focus()
-    assert focus.among(5) == Focus(selected=4)
+    assert focus.among(5, 3) == Focus()
+    assert focus.among(6, 5) == Focus(selected=4)

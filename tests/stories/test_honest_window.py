@@ -1,0 +1,225 @@
+"""What the window shows and says is true at every moment, and every key does what it says."""
+
+import pytest
+from PySide6.QtCore import QPointF, Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QDoubleSpinBox, QLabel, QSpinBox, QTabBar, QToolTip
+
+from crossview.session.commands import ChangeValence, Together
+from crossview.session.pictures import scene_view
+from crossview.view.scalars import SURFACE_SCALARS
+from tests.windowing import Hand
+
+CTRL = Qt.KeyboardModifier.ControlModifier
+
+
+def valences(hand: Hand) -> list[int]:
+    return [s.valence for s in hand.state.document.singularities]
+
+
+def test_return_ends_the_editing_of_a_valence_and_undo_hears_its_key_again(hand: Hand) -> None:
+    hand.open("disk-4")
+    hand.canvas.setFocus()
+    hand.click(hand.place_of(0))
+    hand.key(Qt.Key.Key_Return)
+    editor = QApplication.focusWidget()
+    assert isinstance(editor, QSpinBox)
+    QTest.keyClick(editor, Qt.Key.Key_5)
+    QTest.keyClick(editor, Qt.Key.Key_Return)
+    hand.wait(lambda: valences(hand) == [5, 3, 3, 3])
+    assert not hand.window.singularities_panel.table.findChildren(QSpinBox)
+    assert QApplication.focusWidget() is hand.canvas
+    hand.key(Qt.Key.Key_Z, CTRL)
+    hand.wait()
+    assert valences(hand) == [3, 3, 3, 3]
+
+
+def test_a_valence_that_there_is_not_is_refused_with_the_reason(hand: Hand) -> None:
+    hand.open("disk-4")
+    for valence, reason in ((99, "valence 99 is not offered"), (4, "valence 4 is regular")):
+        hand.window.session.edits.change_valence(0, valence)
+        assert hand.said.startswith(reason)
+        assert valences(hand) == [3, 3, 3, 3]
+
+
+def test_delete_lock_and_valence_act_on_all_that_are_selected_as_one_step(hand: Hand) -> None:
+    hand.open("sphere-cube")
+    hand.canvas.setFocus()
+    hand.key(Qt.Key.Key_A, CTRL)
+    assert hand.state.focus.all == tuple(range(8))
+    hand.key(Qt.Key.Key_L)
+    hand.wait()
+    assert all(s.locked for s in hand.state.singularities)
+    hand.key(Qt.Key.Key_Plus)
+    hand.wait()
+    assert valences(hand) == [5] * 8
+    hand.trigger("undo")
+    assert valences(hand) == [3] * 8
+    hand.window.session.pointer.select(1)
+    hand.window.session.pointer.select(4, both=True)
+    hand.window.session.pointer.select(6, both=True)
+    assert len(hand.state.focus.all) == 3
+    hand.window.session.pointer.select(4, both=True)  # a second time takes it away
+    assert sorted(hand.state.focus.all) == [1, 6]
+    hand.key(Qt.Key.Key_Delete)
+    hand.wait()
+    assert len(valences(hand)) == 6
+    hand.trigger("undo")
+    assert len(valences(hand)) == 8
+
+
+def test_tab_reaches_every_panel(hand: Hand) -> None:
+    hand.open("disk-4")
+    hand.canvas.setFocus()
+    reached, tabs = set(), False
+    for _ in range(60):
+        focus = QApplication.focusWidget()
+        assert focus is not None
+        tabs |= isinstance(focus, QTabBar)
+        for title, dock in hand.window.docks.items():
+            if dock.isAncestorOf(focus):
+                reached.add(title)
+        QTest.keyClick(focus, Qt.Key.Key_Tab)
+    assert {"Surface", "Singularities", "Layers"} <= reached
+    assert tabs  # whose arrow keys change between the other panels
+
+
+def test_space_opens_and_shuts_the_eye_of_a_layer(hand: Hand) -> None:
+    layers = hand.window.layers_panel.list
+    layers.setFocus()
+    layers.setCurrentRow(0)
+    QTest.keyClick(layers, Qt.Key.Key_Space)
+    assert not hand.state.layers["surface"].visible
+    QTest.keyClick(layers, Qt.Key.Key_Space)
+    assert hand.state.layers["surface"].visible
+
+
+def test_one_scalar_is_shown_at_a_time_and_comparing_gives_it_back(hand: Hand) -> None:
+    hand.open("annulus-near")
+    hand.wait(lambda: hand.state.solved and hand.state.start is not None)
+
+    def seen() -> list[str]:
+        return [name for name in SURFACE_SCALARS if hand.state.layers[name].visible]
+
+    hand.trigger("layer-theta")
+    assert seen() == ["theta"]
+    hand.trigger("compare")
+    assert seen() == ["error"]
+    hand.trigger("compare")
+    assert seen() == ["theta"]
+    hand.trigger("layer-H")
+    assert seen() == ["H"]
+
+
+def test_a_range_typed_the_wrong_way_round_says_why_it_is_not_taken(hand: Hand) -> None:
+    hand.open("disk-4")
+    hand.window.layers_panel.list.setCurrentRow(1)
+    editor = hand.window.layers_panel.editors["H"]
+    low, high = editor.findChildren(QDoubleSpinBox)
+    hand.window.session.looks.set_layer("H", type(hand.state.layers["H"])(value_range=(-1.0, 1.0)))
+    low.setValue(5.0)
+    high.setValue(-5.0)
+    (wrong,) = (label for label in editor.findChildren(QLabel) if "smaller" in label.text())
+    assert wrong.isVisible()
+    assert hand.state.layers["H"].value_range == (-1.0, 1.0)
+    high.setValue(7.0)
+    assert not wrong.isVisible()
+    assert hand.state.layers["H"].value_range == (5.0, 7.0)
+
+
+def test_what_a_title_says_ends_with_the_first_edit(hand: Hand) -> None:
+    hand.open("annulus-near")
+    title = scene_view(hand.state).title
+    hand.trigger("method-aligned")  # says nothing against it
+    assert scene_view(hand.state).title == title
+    hand.window.session.edits.step_valence(1, 0)
+    assert scene_view(hand.state).title == f"{title}, edited"
+    hand.wait()
+    hand.trigger("undo")
+    assert scene_view(hand.state).title == title
+
+
+def test_undo_shows_the_field_of_before_at_once(hand: Hand) -> None:
+    hand.open("sphere-cube")
+    before = hand.state.field
+    hand.drag(hand.place_of(6), hand.place_of(6) + QPointF(30, 10))
+    assert "let go" in hand.window.convergence_panel.verdict.text()
+    hand.release(hand.place_of(6))
+    hand.wait(lambda: hand.state.solved)
+    assert hand.state.field is not before
+    hand.window.session.edits.undo()
+    assert hand.state.field is before  # no waiting
+    assert hand.state.solved
+
+
+def test_a_field_of_another_configuration_is_pale_and_has_no_verdict(hand: Hand) -> None:
+    hand.open("sphere-cube")
+    whole = scene_view(hand.state).layer("H").opacity
+    assert "aligned" in hand.window.convergence_panel.verdict.text()
+    session = hand.window.session
+    session.edits.toggle_lock(0)
+    assert not hand.state.stale  # the same field
+    hand.wait()
+    changes = (ChangeValence(0, 2), ChangeValence(1, 2), ChangeValence(2, 5))
+    session.edits.do(Together(changes, "change"))
+    assert hand.state.stale
+    assert scene_view(hand.state).layer("H").opacity < whole
+    assert "not solved yet" in hand.window.convergence_panel.verdict.text()
+    hand.wait(lambda: hand.state.solved)
+    assert scene_view(hand.state).layer("H").opacity == whole
+
+
+def test_a_locked_singularity_says_so_when_it_is_dragged(hand: Hand) -> None:
+    hand.open("disk-4")
+    hand.window.session.edits.toggle_lock(0)
+    hand.wait()
+    eye = hand.canvas.renderer.GetActiveCamera().GetPosition()
+    start = hand.place_of(0)
+    hand.drag(start, start + QPointF(60, 40))
+    assert QToolTip.text() == "Singularity 1 is locked: L unlocks it"
+    assert hand.canvas.cursor().shape() == Qt.CursorShape.ForbiddenCursor
+    hand.release(start + QPointF(60, 40))
+    assert hand.canvas.renderer.GetActiveCamera().GetPosition() == eye
+    assert hand.state.undo_name == "lock singularity 1"
+    QToolTip.hideText()
+
+
+def test_the_read_out_is_of_what_is_shown(hand: Hand) -> None:
+    hand.open("sphere-cube")
+    hand.move(hand.place((0.0, 0.0, 1.0)))
+    assert "triangle" in hand.window.status.hover.text()
+    hand.open("disk-4")
+    assert hand.window.status.hover.text() == ""
+
+
+@pytest.mark.parametrize("name", ["mbo", "globally-optimal"])
+def test_long_work_can_be_stopped_from_its_first_moment(hand: Hand, name: str) -> None:
+    hand.open("sphere-cube")
+    hand.window.session.moves.place_natural(name)
+    assert hand.window.actions_table.by_name["stop"].isEnabled()
+    hand.window.session.solving.stop()
+    assert "Stopped" in hand.said
+    assert not hand.window.actions_table.by_name["stop"].isEnabled()
+    hand.wait()
+
+
+def test_remedies_go_while_the_mouse_carries_one(hand: Hand) -> None:
+    hand.open("disk-4")
+    hand.window.session.edits.remove(0)
+    hand.wait()
+    panel = hand.window.validity_panel
+    assert panel.buttons
+    hand.trigger("add-3")
+    hand.move(hand.place((0.3, 0.2, 0.0)))
+    assert not panel.buttons
+    assert "click to place" in panel.note.text()
+    hand.trigger("select")
+    assert panel.buttons
+
+
+def test_an_angle_without_edges_says_so(hand: Hand) -> None:
+    hand.open("disk-4")
+    box = hand.window.surface_panel.features
+    box.sharp.click()
+    hand.wait()
+    assert box.found.text() == "No edge bends by more than 40\u00b0"
