@@ -239,17 +239,3 @@ def test_real_surfaces_from_file_to_field(hand: Hand, name: str) -> None:
     assert hand.state.solution.field.max_closing_error < 1e-9
     color = BLUE if hand.state.singularities[0].valence == 3 else RED
     assert hand.shows(color)
-
-
-def test_undo_goes_back_to_the_surface_before(hand: Hand) -> None:
-    hand.open("disk-4")
-    first = hand.state.document
-    hand.open("sphere-cube")
-    assert len(hand.state.singularities) == 8
-    hand.trigger("undo")
-    hand.wait(lambda: hand.state.solved)
-    assert hand.state.document is first
-    assert hand.state.field.surface.genus == 0
-    hand.trigger("undo")
-    assert hand.state.document is None
-    assert hand.window.centre.empty.isVisible()
