@@ -31,7 +31,7 @@ from solvers.fields import CURVATURE_WEIGHT, MOST_VALENCE
 from solvers.kind_checks import one_of_kind
 from solvers.layouts import QuadLayout
 from solvers.number_checks import whole_number
-from solvers.quads import QuadMesh
+from solvers.quads import MAX_CHORD, QuadMesh
 
 Watch = Callable[[Progress], object] | None
 """What is called with each step of a long computation."""
@@ -365,6 +365,7 @@ def quads(
     *,
     edge_length: float | None = None,
     smooth: bool = True,
+    max_chord: float = MAX_CHORD,
     progress: Watch = None,
 ) -> QuadMesh:
     """Fill a layout with quads.
@@ -379,6 +380,9 @@ def quads(
         Mean length of their edges.
     smooth : bool, optional
         Whether vertices slide along the surface to better quads.
+    max_chord : float, optional
+        Largest distance of an edge from the boundary or feature that it follows, in radii of its
+        bend; at most 1.
     progress : callable, optional
         Called with each step.
 
@@ -403,7 +407,7 @@ def quads(
     {3: 4}
     """
     _require("layout", layout, QuadLayout)
-    options = meshes.MeshOptions(edge_length, target_quads, smooth)
+    options = meshes.MeshOptions(edge_length, target_quads, smooth, max_chord)
     return run(meshes.quads(layout, options), progress)
 
 

@@ -11,6 +11,7 @@ from crossview.cases.gallery import find_case
 from crossview.cases.model import Case
 from crossview.workflow.quads import MeshOptions
 from solvers.errors import CrossviewError
+from solvers.quads import MAX_CHORD
 
 Output = Annotated[str, Parameter(name=["--output", "-o"])]
 Flag = Annotated[bool, Parameter(negative="", show_default=False)]
@@ -98,10 +99,14 @@ class QuadOptions:
         Mean length of the quads' edges.
     target_quads
         About how many quads; 5000 if neither is given.
+    max_chord
+        Largest distance of an edge from the boundary or feature that it follows, in radii of its
+        bend; 0.01 if not given.
     """
 
     edge_length: float | None = None
     target_quads: int | None = None
+    max_chord: float | None = None
 
     def wanted(self, quads: bool, advice: str) -> MeshOptions | None:
         """Return how the quads are to be; None if none are wanted.
@@ -119,7 +124,8 @@ class QuadOptions:
             None are wanted and it is said how they should be, or something is impossible.
         """
         if quads:
-            return MeshOptions(self.edge_length, self.target_quads)
+            chord = MAX_CHORD if self.max_chord is None else self.max_chord
+            return MeshOptions(self.edge_length, self.target_quads, max_chord=chord)
         for name, given in vars(self).items():
             if given is not None:
                 raise CrossviewError(f"--{name.replace('_', '-')} is about quads", "", advice)

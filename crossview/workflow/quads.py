@@ -13,7 +13,15 @@ from solvers.errors import CrossviewError
 from solvers.layouts import QuadLayout
 from solvers.number_checks import real_number, whole_number
 from solvers.progress import Progress, between
-from solvers.quads import MOST_QUADS, QuadMesh, fill, quantize_to, smooth
+from solvers.quads import (
+    MAX_CHORD,
+    MOST_QUADS,
+    QuadMesh,
+    bending_conditions,
+    fill,
+    quantize_to,
+    smooth,
+)
 from solvers.singularities import Singularity, SplitOne
 from solvers.surface import TriSurface
 
@@ -33,16 +41,20 @@ class MeshOptions:
         About how many; 5 000 if neither is given.
     smooth : bool
         Whether vertices slide along the surface to better quads.
+    max_chord : float
+        Largest distance of an edge from the boundary or feature that it follows, in radii of its
+        bend; at most 1.
 
     Raises
     ------
     CrossviewError
-        Both are given, or one is not above 0.
+        Both are given, or a number is out of its range.
     """
 
     edge_length: float | None = None
     target_quads: int | None = None
     smooth: bool = True
+    max_chord: float = MAX_CHORD
 
     def __post_init__(self) -> None:
         if self.edge_length is not None and self.target_quads is not None:
@@ -54,6 +66,7 @@ class MeshOptions:
         if self.target_quads is not None:
             quads = whole_number("the number of quads", self.target_quads, 1)
             object.__setattr__(self, "target_quads", quads)
+        real_number("the chord error", self.max_chord, above=0, most=1)
 
     def number_on(self, surface: TriSurface) -> int:
         """About how many quads these options make on a surface.
@@ -98,7 +111,8 @@ def quads(layout: QuadLayout, options: MeshOptions) -> Generator[Progress, None,
     number = options.number_on(layout.surface)
     require_closing(layout.integrated.field.singularities)
     yield Progress("choosing numbers of quads", 0.0)
-    chosen = quantize_to(layout.tmesh, number)
+    bends = bending_conditions(layout, options.max_chord)
+    chosen = quantize_to(layout.tmesh, number, conditions=bends)
     yield Progress("filling the patches", 0.3)
     filled = replace(fill(layout, chosen.counts), quantization=chosen)
     if options.smooth:

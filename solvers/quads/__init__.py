@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from solvers.quads.bending import MAX_CHORD, bending_conditions
 from solvers.quads.corners import scaled_jacobian
 from solvers.quads.filling import fill
 from solvers.quads.quadmesh import QuadMesh
@@ -15,9 +16,11 @@ from solvers.quads.quantization import (
 from solvers.quads.smoothing import smooth
 
 __all__ = [
+    "MAX_CHORD",
     "MOST_QUADS",
     "QuadMesh",
     "Quantization",
+    "bending_conditions",
     "fewest_quads",
     "fill",
     "quantize",

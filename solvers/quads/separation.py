@@ -34,7 +34,11 @@ class Separation:
     def __init__(self, tmesh: TMesh, conditions: Sequence[Condition] = ()) -> None:
         self._tmesh = tmesh
         self._balance, self._least = balances(tmesh), least_counts(tmesh)
-        self._conditions = list(conditions)
+        for condition in conditions:
+            if len(condition.arcs) == 1:
+                arc = condition.arcs[0]
+                self._least[arc] = max(self._least[arc], condition.least)
+        self._conditions = [c for c in conditions if len(c.arcs) > 1]
 
     def nearest(
         self,

@@ -28,7 +28,7 @@ from crossview.gui.panels.validity import DOT
 from crossview.session.state import SessionState
 from crossview.view.colors import BAD, GOOD
 from crossview.workflow.quads import DEFAULT_QUADS, MeshOptions
-from solvers.quads import MOST_QUADS
+from solvers.quads import MAX_CHORD, MOST_QUADS
 from solvers.surface import TriSurface
 
 COUNT, LENGTH = range(2)
@@ -69,6 +69,16 @@ class QuadsPanel(QScrollArea):
         self.smooth = QCheckBox("Smooth")
         self.smooth.setToolTip("Let the vertices slide on the surface to better quads")
         self.smooth.setChecked(True)
+        self.chord_box = QDoubleSpinBox()
+        self.chord_box.setDecimals(2)
+        self.chord_box.setRange(0.01, 100.0)
+        self.chord_box.setValue(100.0 * MAX_CHORD)
+        self.chord_box.setSuffix(" %")
+        self.chord_box.setLocale(QLocale.c())
+        self.chord_box.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
+        self.chord_box.setToolTip(
+            "How far an edge may be from the boundary or feature it follows, in radii of its bend"
+        )
         self.button = QPushButton(make.icon(), make.text())
         self.button.setToolTip(make.toolTip())
         self.button.clicked.connect(make.trigger)
@@ -93,6 +103,7 @@ class QuadsPanel(QScrollArea):
             edge_length=None if by_count else self.length_box.value(),
             target_quads=self.count_box.value() if by_count else None,
             smooth=self.smooth.isChecked(),
+            max_chord=self.chord_box.value() / 100.0,
         )
 
     def show_state(self, old: SessionState, new: SessionState) -> None:
@@ -136,6 +147,11 @@ class QuadsPanel(QScrollArea):
         wanted.addWidget(self.unit)
         wanted.addWidget(self.boxes, 1)
         layout.addLayout(wanted)
+        bends = QHBoxLayout()
+        bends.setSpacing(6)
+        bends.addWidget(QLabel("Off bends"))
+        bends.addWidget(self.chord_box, 1)
+        layout.addLayout(bends)
         layout.addWidget(self.smooth)
         layout.addWidget(self.button)
         said = QHBoxLayout()

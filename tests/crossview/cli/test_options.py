@@ -13,8 +13,8 @@ TAKEN = {
     "complete": SURFACE,
     "make-valid": SURFACE,
     "natural": (*SURFACE, "features"),
-    "solve": (*SURFACE, "features", "method", "edge-length", "target-quads"),
-    "render": (*SURFACE, "features", "method", "edge-length", "target-quads"),
+    "solve": (*SURFACE, "features", "method", "edge-length", "target-quads", "max-chord"),
+    "render": (*SURFACE, "features", "method", "edge-length", "target-quads", "max-chord"),
 }
 
 

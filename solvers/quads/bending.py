@@ -1,0 +1,241 @@
+"""How many edges arcs of boundaries and features need to follow their bends."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from solvers.layouts.arrangement import Arrangement
+from solvers.layouts.crossings import ends_of
+from solvers.layouts.layout import QuadLayout
+from solvers.layouts.straight import barycentric_in
+from solvers.number_checks import real_number
+from solvers.quads.collapse import Condition
+from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
+
+MAX_CHORD = 0.01
+"""Largest distance of an edge from the arc it stands for, in radii of the arc.
+
+Chosen: an edge may turn by 16.2 degrees then, and a circle has 23 at least.
+"""
+
+ON_EDGE = 1e-9
+"""Barycentric weight up to which a point lies on an edge. Chosen: far above round-off."""
+
+
+def bending_conditions(layout: QuadLayout, max_chord: float = MAX_CHORD) -> list[Condition]:
+    """Return how many edges arcs of boundaries and features need to follow their bends.
+
+    Parameters
+    ----------
+    layout : QuadLayout
+        The rectangles on the surface.
+    max_chord : float
+        Largest distance of an edge from its arc, in radii of the arc; at most 1, a half circle.
+
+    Returns
+    -------
+    list of Condition
+        For single arcs, for consecutive arcs that one edge may not span, and for whole curves.
+        Arcs that join two features, or a feature with a singularity or the boundary, need one edge.
+
+    Raises
+    ------
+    CrossviewError
+        If the chord error is not above 0 and at most 1.
+
+    Notes
+    -----
+    An edge that turns by an angle a is off by 1 - cos(a / 2) radii, and by tan(a / 4) / 2 of its
+    length. An arc needs as many edges as its turning asks for, or fewer if equal shares of it keep
+    to the second: a zigzag turns much and is hardly off.
+
+    Examples
+    --------
+    The unit circle around a square patch and four more needs 23 edges at least:
+
+    >>> from solvers import run
+    >>> from solvers.fields import IntegratedField, aligned_field, prepare
+    >>> from solvers.layouts import quad_layout
+    >>> from solvers.primitives import disk
+    >>> from solvers.singularities import Singularity
+    >>> surface = disk(edge_length=0.1)
+    >>> places = [[0.5, 0, 0], [0, 0.5, 0], [-0.5, 0, 0], [0, -0.5, 0]]
+    >>> threes = [Singularity(surface.closest_point(place), 3) for place in places]
+    >>> aligned = aligned_field(prepare(surface, threes))
+    >>> layout = run(quad_layout(IntegratedField(aligned, aligned.start)))
+    >>> from solvers.quads import bending_conditions
+    >>> conditions = bending_conditions(layout)
+    >>> sorted(condition.least for condition in conditions)
+    [6, 6, 6, 6]
+    """
+    turn = _largest_turn(max_chord)
+    bent, crossing = _arcs_of_features(layout)
+    found = [Condition(np.array([arc]), 1) for arc in np.flatnonzero(crossing).tolist()]
+    for stretch in _stretches(layout.arrangement, bent):
+        found += _of_stretch(stretch, _polylines(layout, stretch.arcs), turn)
+    return found
+
+
+def _largest_turn(max_chord: float) -> float:
+    """Return by how much an edge may turn, radians."""
+    return float(2 * np.arccos(1 - real_number("the chord error", max_chord, above=0, most=1)))
+
+
+@dataclass(frozen=True, eq=False)
+class _Stretch:
+    """Consecutive arcs of a curve without a critical node between them; closed: a whole loop."""
+
+    arcs: IntArray
+    closed: bool
+
+
+@dataclass(frozen=True, eq=False)
+class _Polyline:
+    """Points (k, 3) along an arc, and how far along it, in the map, they are."""
+
+    points: FloatArray
+    at: FloatArray
+
+
+def _arcs_of_features(layout: QuadLayout) -> tuple[BoolArray, BoolArray]:
+    """Return which arcs lie on the boundary or on features, and which lead from one to another."""
+    arrangement, tmesh = layout.arrangement, layout.tmesh
+    bent = tmesh.arc_on_boundary.copy()
+    features = layout.integrated.aligned.features
+    if len(features) == 0:
+        return bent, np.zeros(len(bent), dtype=bool)
+    face, weights = _located(layout, arrangement.arc_curve, arrangement.arc_span.mean(axis=1))
+    corner = weights.argmin(axis=1)
+    edge = layout.surface.face_edges[face, (corner + 1) % 3]
+    bent |= (weights.min(axis=1) < ON_EDGE) & np.isin(edge, features.edges)
+    featured = np.zeros(tmesh.n_nodes, dtype=bool)
+    featured[tmesh.arcs[bent & ~tmesh.arc_on_boundary]] = True
+    held = featured | tmesh.critical | tmesh.node_on_boundary
+    ends = tmesh.arcs
+    return bent, ~bent & held[ends].all(axis=1) & featured[ends].any(axis=1)
+
+
+def _stretches(arrangement: Arrangement, bent: BoolArray) -> list[_Stretch]:
+    """Return the stretches that bent arcs make, each in the order along its curve."""
+    tmesh, span = arrangement.tmesh, arrangement.arc_span
+    arcs = np.flatnonzero(bent)
+    arcs = arcs[np.lexsort((span[arcs, 0], arrangement.arc_curve[arcs]))]
+    after = np.roll(arcs, -1)
+    curve = arrangement.arc_curve
+    going_on = (curve[arcs] == curve[after]) & (tmesh.arcs[arcs, 1] == tmesh.arcs[after, 0])
+    going_on &= ~tmesh.critical[tmesh.arcs[arcs, 1]]
+    found = []
+    for c in np.unique(curve[arcs]).tolist():
+        on = curve[arcs] == c
+        own, joined = arcs[on], going_on[on]
+        # The last of a curve is followed by the first of the next one, a loop's by its own first.
+        joined[-1] = tmesh.arcs[own[-1], 1] == tmesh.arcs[own[0], 0]
+        joined[-1] &= not tmesh.critical[tmesh.arcs[own[-1], 1]]
+        if joined.all():
+            found.append(_Stretch(own, closed=True))
+            continue
+        first = int(np.flatnonzero(~joined)[-1]) + 1
+        own, joined = np.roll(own, -first), np.roll(joined, -first)
+        cuts = np.flatnonzero(~joined)[:-1] + 1
+        found += [_Stretch(part, closed=False) for part in np.split(own, cuts)]
+    return found
+
+
+def _polylines(layout: QuadLayout, arcs: IntArray) -> list[_Polyline]:
+    """Return the polyline of each arc, with all vertices that it has on the surface."""
+    arrangement = layout.arrangement
+    curves, at, owner = arrangement.curves, [], []
+    for arc in arcs.tolist():
+        start, end = arrangement.arc_span[arc]
+        low, high = curves.offsets[arrangement.arc_curve[arc] + np.arange(2)]
+        places = curves.chords.start[low:high]
+        places = np.concatenate([places, places + curves.chords.end[high - 1]])
+        inner = places[(places > start) & (places < end)]
+        at.append(np.concatenate([[start], inner, [end]]))
+        owner.append(np.full(len(at[-1]), arrangement.arc_curve[arc]))
+    face, weights = _located(layout, np.concatenate(owner), np.concatenate(at))
+    corners = layout.surface.vertices[layout.surface.faces[face]]
+    points = np.einsum("kc,kcd->kd", weights, corners)
+    cuts = np.cumsum([len(a) for a in at])[:-1]
+    return [_Polyline(p, a - a[0]) for p, a in zip(np.split(points, cuts), at, strict=True)]
+
+
+def _located(layout: QuadLayout, curve: IntArray, at: FloatArray) -> tuple[IntArray, FloatArray]:
+    """Return the surface's triangles (k,) and weights (k, 3) of places along curves."""
+    curves = layout.arrangement.curves
+    chord, part = np.empty(len(curve), dtype=np.int64), np.empty(len(curve))
+    for c in np.unique(curve).tolist():
+        on = curve == c
+        chord[on], part[on] = curves.chords_at(c, at[on])
+    start, end = (ends[chord] for ends in ends_of(curves.chart, curves.chords))
+    face = curves.chords.face[chord]
+    weights = barycentric_in(curves.chart, face, start + part * (end - start))
+    return curves.chart.working.lift_points(face, weights)
+
+
+def _of_stretch(stretch: _Stretch, polylines: Sequence[_Polyline], turn: float) -> list[Condition]:
+    """Return the conditions of its arcs, of windows that one edge may not span, and of all."""
+    arcs, k = stretch.arcs, len(stretch.arcs)
+    need = np.array([_edges_for(line, turn) for line in polylines])
+    found = [Condition(arcs[[i]], int(need[i])) for i in np.flatnonzero(need > 1)]
+    if k == 1:
+        return found
+    whole = _edges_for(_chained(polylines), turn)
+    if whole > need.sum():
+        found.append(Condition(np.unique(arcs), whole))
+    lines = [*polylines, *polylines] if stretch.closed else polylines
+    for i in range(k):
+        for j in range(i + 1, min(i + k, len(lines))):
+            if (need[np.arange(i, j + 1) % k] > 1).any():
+                break
+            if _edges_for(_chained(lines[i : j + 1]), turn) > 1:
+                found.append(Condition(np.unique(arcs[np.arange(i, j + 1) % k]), 2))
+                break
+    return found
+
+
+def _chained(lines: Sequence[_Polyline]) -> _Polyline:
+    """Return one polyline along several that follow each other."""
+    first = np.concatenate([[0.0], np.cumsum([line.at[-1] for line in lines])])
+    points = [lines[0].points[:1], *(line.points[1:] for line in lines)]
+    at = [np.zeros(1), *(line.at[1:] + a for line, a in zip(lines, first[:-1], strict=True))]
+    return _Polyline(np.concatenate(points), np.concatenate(at))
+
+
+def _edges_for(line: _Polyline, turn: float) -> int:
+    """Return the least number of edges that follow, as the notes of `bending_conditions` say."""
+    turning = _turning(line, turn)
+    most = max(1, int(np.ceil(turning.sum() / turn - 1e-6)))
+    return next((n for n in range(1, most) if _follow(line, turning, n, turn)), most)
+
+
+def _turning(line: _Polyline, turn: float) -> FloatArray:
+    """Return the turn (k,) at each point, at most as much as an edge may turn by.
+
+    No number of edges follows a corner between two steps better than one that ends at it.
+    """
+    steps = np.diff(line.points, axis=0)
+    length = np.linalg.norm(steps, axis=1)
+    product = length[1:] * length[:-1]
+    cosine = np.einsum("kd,kd->k", steps[1:], steps[:-1]) / np.where(product > 0, product, 1.0)
+    angle = np.where(product > 0, np.arccos(np.clip(cosine, -1.0, 1.0)), 0.0)
+    return np.concatenate([[0.0], np.minimum(angle, turn), [0.0]])
+
+
+def _follow(line: _Polyline, turning: FloatArray, n: int, turn: float) -> bool:
+    """Return whether n edges of equal shares turn by little, or are off by little."""
+    share = line.at / line.at[-1] * n
+    columns = [np.interp(np.arange(n + 1), share, column) for column in line.points.T]
+    ends = np.stack(columns, axis=1)
+    edge = np.clip(share.astype(np.int64), 0, n - 1)
+    much = np.bincount(edge, turning, minlength=n) > turn * (1 + 1e-6)
+    along = np.diff(ends, axis=0)
+    square = np.einsum("kd,kd->k", along, along)[edge]
+    beside = line.points - ends[edge]
+    product = np.einsum("kd,kd->k", beside, along[edge])
+    part = np.clip(product / np.where(square > 0, square, 1.0), 0.0, 1.0)
+    gap = np.linalg.norm(beside - part[:, None] * along[edge], axis=1)
+    return not (much[edge] & (gap > np.tan(turn / 4) / 2 * np.sqrt(square))).any()
