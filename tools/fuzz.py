@@ -28,7 +28,7 @@ from crossview.cli import main
 from crossview.workflow.sizes import read_sizes
 from solvers.errors import CrossviewError
 
-CORPUS = Path(__file__).resolve().parents[1] / "tests" / "data" / "fuzz"
+CORPUS = Path(__file__).resolve().parents[1] / "tests" / "corpus"
 """Small valid files of every format and, named after their faults, those that once did harm."""
 
 SIZE_MAPS = {".npy", ".txt"}

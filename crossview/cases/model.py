@@ -112,7 +112,7 @@ class Case:
 
     @property
     def files(self) -> tuple[str, ...]:
-        """The files that it is solved from, its surface and its size map, as far as they are files."""
+        """The files that it is solved from, its surface and its size map, unless built in."""
         named = (self.surface, self.options.sizes)
         return tuple(name for name in named if isinstance(name, str))
 

@@ -37,7 +37,8 @@ def run(path: str | None) -> int:
     """
     ensure_rendering()
     app = application()
-    signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl+C in the terminal ends the window too
+    for kind in (signal.SIGINT, signal.SIGTERM):  # they end the window too
+        signal.signal(kind, signal.SIG_DFL)
     window = MainWindow()
     sys.excepthook = lambda kind, error, trace: window.session.fail(error, "unexpected")
     window.show()

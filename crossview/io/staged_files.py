@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import errno
 import os
-import shutil
 import stat
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from crossview.io.staging import staging_in, sweep
+from crossview.io.staging import remove, staging_in, sweep
 from crossview.io.swapped import flush, swapped
 from solvers.errors import CrossviewError
 
@@ -91,11 +90,12 @@ def _staging(folder: Path, named: Path) -> Iterator[Path]:
     except OSError as error:
         raise unwritable(named, error) from error
     try:
+        staging.mkdir(mode=0o700)  # within, so that no interruption comes between
         yield staging
     except OSError as error:
         raise unwritable(named, error) from error
     finally:
-        shutil.rmtree(staging, ignore_errors=True)
+        remove(staging)
 
 
 def _require_folder(target: Path) -> None:

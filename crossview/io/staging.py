@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 import platform
 import re
+import secrets
 import shutil
-import tempfile
 from pathlib import Path
 
 PREFIX = ".crossview-"
@@ -14,14 +14,17 @@ PREFIX = ".crossview-"
 
 
 def staging_in(base: Path) -> Path:
-    """Make a temporary folder in another.
+    """Return where in a folder a temporary one may be made."""
+    return base / f"{PREFIX}{_computer()}-{os.getpid()}-{secrets.token_hex(4)}"
 
-    Raises
-    ------
-    OSError
-        It cannot be made.
-    """
-    return Path(tempfile.mkdtemp(prefix=f"{PREFIX}{_computer()}-{os.getpid()}-", dir=base))
+
+def remove(folder: Path) -> None:
+    """Remove a folder, also if that is interrupted once."""
+    try:
+        shutil.rmtree(folder, ignore_errors=True)
+    except KeyboardInterrupt:
+        shutil.rmtree(folder, ignore_errors=True)
+        raise
 
 
 def sweep(base: Path) -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 from crossview.io import SUFFIXES
 
 ROOT = Path(__file__).resolve().parents[3]
-CORPUS = ROOT / "tests" / "data" / "fuzz"
+CORPUS = ROOT / "tests" / "corpus"
 
 
 def test_every_format_is_in_the_corpus() -> None:

@@ -172,11 +172,12 @@ def test_what_files_are_made_from_is_not_overwritten(tmp_path: Path) -> None:
 def test_folders_of_dead_processes_are_swept_those_of_live_ones_stay(tmp_path: Path) -> None:
     asked = (
         "import sys; from pathlib import Path; from crossview.io.staging import staging_in; "
-        "print(staging_in(Path(sys.argv[1])))"
+        "made = staging_in(Path(sys.argv[1])); made.mkdir(); print(made)"
     )
     command = [sys.executable, "-c", asked, str(tmp_path)]
     dead = subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
     alive = staging_in(tmp_path)
+    alive.mkdir()
     (tmp_path / ".crossview-elsewhere-1-abc").mkdir()
     assert Path(dead).is_dir()
     with staged_file(tmp_path / "x") as made:

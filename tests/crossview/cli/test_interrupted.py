@@ -1,0 +1,63 @@
+"""An interruption at any moment ends a command in one line and leaves nothing half done."""
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[3]
+
+PROGRAM = """
+import os, sys
+sys.path.insert(0, sys.argv.pop(1))
+from crossview_program import main
+
+kind, counted, left = sys.argv.pop(1), sys.argv.pop(1), int(sys.argv.pop(1))
+
+def count(event, arguments):
+    global left
+    if event == counted:
+        left -= 1
+        if left == 0:
+            os.kill(os.getpid(), int(kind))
+
+sys.addaudithook(count)
+sys.exit(main())
+"""
+
+
+@pytest.mark.parametrize(
+    ("kind", "event", "number"),
+    [
+        (signal.SIGINT, "import", 1),
+        (signal.SIGTERM, "import", 100),
+        (signal.SIGINT, "import", 1000),
+        (signal.SIGTERM, "open", 300),
+        (signal.SIGINT, "os.mkdir", 1),
+        (signal.SIGTERM, "os.mkdir", 2),
+        (signal.SIGINT, "os.rename", 1),
+        (signal.SIGTERM, "os.rmdir", 1),
+    ],
+)
+def test_it_ends_in_one_line_and_leaves_nothing(
+    kind: signal.Signals, event: str, number: int, tmp_path: Path
+) -> None:
+    """The signal comes with the given import, opened file or change of a folder."""
+    ran = subprocess.run(
+        [
+            *(sys.executable, "-c", PROGRAM, ROOT, str(int(kind)), event, str(number)),
+            *("solve", "disk-4", "-o", "out", "--quiet"),
+        ],
+        cwd=tmp_path,
+        env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (ran.returncode, ran.stdout, ran.stderr) == (130, "", "crossview: interrupted\n")
+    # the last moment of all is after the results are in their place
+    left = ["out"] if event == "os.rmdir" else []
+    assert [path.name for path in tmp_path.iterdir()] == left
