@@ -8,7 +8,7 @@ ends at a node that lies off it by more than rounding.
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import coo_array, csc_array
+from scipy.sparse import coo_array, csr_array
 
 from solvers.layouts.charts import AXES, ComplexArray
 from solvers.layouts.crossings import Crossings, ends_of
@@ -87,7 +87,7 @@ def beside(traces: Traces) -> IntArray:
     return np.asarray(last[np.abs(off) > ROUNDING * chart.edge_length])
 
 
-def conditions(traces: Traces, passed: IntArray) -> csc_array:
+def conditions(traces: Traces, passed: IntArray) -> csr_array:
     """Return the rows (p, 6 m) that take the passed nodes onto the traces.
 
     Parameters
@@ -114,7 +114,7 @@ def conditions(traces: Traces, passed: IntArray) -> csc_array:
     return _offsets_across(traces, ways)
 
 
-def ending(traces: Traces, last: IntArray) -> csc_array:
+def ending(traces: Traces, last: IntArray) -> csr_array:
     """Return the rows (e, 6 m) that take the nodes where traces end onto them.
 
     Parameters
@@ -139,7 +139,7 @@ def ending(traces: Traces, last: IntArray) -> csc_array:
     return _offsets_across(traces, ways)
 
 
-def _offsets_across(traces: Traces, ways: list[tuple[IntArray, ComplexArray]]) -> csc_array:
+def _offsets_across(traces: Traces, ways: list[tuple[IntArray, ComplexArray]]) -> csr_array:
     """Return rows whose products with the images are the parts of ways across their traces."""
     rows, columns, values = [], [], []
     for number, (halfedge, factor) in enumerate(ways):
@@ -149,9 +149,9 @@ def _offsets_across(traces: Traces, ways: list[tuple[IntArray, ComplexArray]]) -
         values.append(np.stack([factor.imag, factor.real], axis=1).reshape(-1))
     shape = (len(ways), 6 * traces.chart.triangulation.n_faces)
     if not rows:
-        return csc_array(shape)
+        return csr_array(shape)
     indices = (np.concatenate(rows), np.concatenate(columns))
-    return csc_array(coo_array((np.concatenate(values), indices), shape=shape))
+    return csr_array(coo_array((np.concatenate(values), indices), shape=shape))
 
 
 def _corner_steps(traces: Traces, last: int) -> tuple[IntArray, ComplexArray]:

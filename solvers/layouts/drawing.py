@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from functools import cached_property
 
 import numpy as np
-from scipy.sparse import csc_array
+from scipy.sparse import csr_array
 
 from solvers.layouts.arrangement import Arrangement, arrange
 from solvers.layouts.connections import beside, conditions, ending, passing
@@ -18,11 +18,13 @@ from solvers.layouts.motorcycles import Stops, left_of, stops
 from solvers.layouts.nodes import Node, node_at
 from solvers.layouts.rims import with_rims
 from solvers.layouts.separatrices import Separatrices, as_curves
+from solvers.layouts.tracing import BORDER
 
-LONGEST, SHORTEST = 4.0, 0.06
-"""Length at which a trace counts as a limit cycle, in diameters of the map, and the least to which
-it is reduced where the layout would become too fine. Chosen.
-"""
+LONGEST = 4.0
+"""Length at which a trace counts as winding on and on, in diameters of the map. Chosen."""
+
+LENGTHS = LONGEST * 0.5 ** np.arange(8)
+"""The same, and to what it is reduced where the layout would become too fine. Chosen."""
 
 CROSSINGS = 2
 """Crossings for each trace, beside a hundred for all, that make a layout too fine. Chosen."""
@@ -60,15 +62,18 @@ class Drawing:
     @cached_property
     def _stops(self) -> Stops:
         """How far the traces are kept: as far as the layout does not become too fine."""
-        longest = LONGEST
-        while True:
-            stopped = stops(self.traces, self.crossings, longest * self.traces.chart.diameter)
-            count = len(left_of(self.crossings, stopped))
-            if longest < SHORTEST or count <= 100 + CROSSINGS * len(stopped.kept):
-                return stopped
-            longest /= 2
+        uncut = np.inf
+        for longest in self.traces.chart.diameter * LENGTHS:
+            if uncut <= longest:
+                continue  # cuts none of them either
+            stopped = stops(self.traces, self.crossings, longest)
+            if len(left_of(self.crossings, stopped)) <= 100 + CROSSINGS * len(stopped.kept):
+                break
+            at_border = stopped.kept & (self.traces.ends == BORDER) & ~stopped.cut
+            uncut = self.traces.lengths[at_border].max(initial=0.0)
+        return stopped
 
-    def offsets(self) -> csc_array:
+    def offsets(self) -> csr_array:
         """Return how far nodes that traces pass too closely are off them, as rows of the map."""
         loops = boundary_halfedges(self._map.chart, self._map.surface)
         rimmed = with_rims(self.traces, self._nodes, loops)
@@ -77,7 +82,7 @@ class Drawing:
         found = passing(rimmed, crossed, len(self._nodes))
         return conditions(rimmed, found)
 
-    def loose_ends(self) -> csc_array:
+    def loose_ends(self) -> csr_array:
         """Return how far nodes where traces end are off them, where it is more than rounding."""
         return ending(self.traces, beside(self.traces))
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import csc_array
+from scipy.sparse import csr_array
 
 from solvers.errors import counted
 from solvers.fields.aligned import IntegratedField
@@ -62,15 +62,17 @@ class JoinedMap:
         """Inverted triangles."""
         return self._fit.map.inverted
 
-    def join(self, rows: csc_array) -> bool:
+    def join(self, rows: csr_array) -> bool:
         """Fit the map again so that also combinations of images vanish: of the first as many rows
         as do not spoil it. Return whether it was.
         """
-        before, rows = self._fit, csc_array(rows[:MOST])
+        before, rows = self._fit, rows[:MOST]
         kept, count = before.joins.rows.shape[0], rows.shape[0]
         every, most = before.joining(rows), max(SPOILT, 2 * before.map.distance)
         while count:
-            if (fit := before.joined(every.first(kept + count), most)) is not None:
+            some = every.first(kept + count)
+            near = before.distance(some) <= most
+            if near and (fit := before.joined(some, most)) is not None:
                 self._fit = fit
                 self.chart = self._chart()
                 return True

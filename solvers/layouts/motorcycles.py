@@ -57,21 +57,22 @@ def stops(traces: Traces, crossings: Crossings, longest: float = np.inf) -> Stop
     long = (traces.ends == BORDER) & (traces.lengths > longest)
     endless = ((traces.ends == LENGTH) | long) & kept
     at = np.where(endless, np.inf, traces.lengths)
-    rank = np.full(len(kept), WHOLE)
     events = crossings[kept[crossings.trace].all(axis=1) & endless[crossings.trace].any(axis=1)]
     when = np.where(endless[events.trace], events.at, -1.0)
     later = np.where(
         when[:, 1] == when[:, 0], events.trace[:, 1] > events.trace[:, 0], when[:, 1] > when[:, 0]
     )
-    rows = np.arange(len(events))
-    own = later.astype(np.int64)
+    rows, own = np.arange(len(events)), later.astype(np.int64)
     order = np.lexsort((events.rank[rows, own], when.max(axis=1)))
-    for i in order:
-        pair = events.trace[i]
-        if (events.rank[i] > rank[pair]).any():
-            continue
-        stopped = pair[own[i]]
-        at[stopped], rank[stopped] = events.at[i, own[i]], events.rank[i, own[i]]
+    one, other = (c[rows, which][order] for c in (events.trace,) for which in (own, 1 - own))
+    rank_one, rank_other = (events.rank[rows, which][order] for which in (own, 1 - own))
+    last = [WHOLE] * len(kept)
+    events_in_order = (column.tolist() for column in (one, other, rank_one, rank_other))
+    for number, (i, j, here, there) in enumerate(zip(*events_in_order, strict=True)):
+        if here <= last[i] and there <= last[j]:
+            last[i] = here
+            at[i] = events.at[order[number], own[order[number]]]
+    rank = np.array(last, dtype=np.int64)
     unstopped = np.isinf(at) & (traces.ends != LENGTH)
     at[unstopped] = traces.lengths[unstopped]
     return Stops(kept, at, rank)

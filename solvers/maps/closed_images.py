@@ -8,9 +8,10 @@ by least moves (a few back-substitutions with the same factor).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
-from scipy.sparse import coo_array, csc_array, diags_array, vstack
+from scipy.sparse import coo_array, csc_array, csr_array, diags_array, vstack
 
 from solvers.algebra.factorization import Analysis
 from solvers.frozen import freeze_arrays, frozen_property
@@ -25,6 +26,9 @@ from solvers.surface.triangulation import (
 
 PASSES, ROUNDING = 3, 1e-14
 """Most solves that close images, and the gap, in parts of them, left for rounding. Chosen."""
+
+AT_ONCE = 16
+"""Joins that are solved for together. Chosen: more are no faster and take memory."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,31 +93,32 @@ class SeamlessMap:
 
 @dataclass(frozen=True, eq=False)
 class Joining:
-    """Linear combinations of images that are to vanish, and the moves that change each.
+    """Linear combinations of images that are to vanish, and how closed images answer to them.
 
     Parameters
     ----------
     rows : (k, 6 m) sparse array
         Coefficients of the components of halfedges' images.
-    wanted, moves : (k, 2 ne) float arrays
-        The same for edges' images, and the least closed change of those for each.
+    wanted : (k, 2 ne) sparse array
+        The same for edges' images.
+    compliance : (k, k) float array
+        How much each changes when closed images are pulled along another one.
     """
 
-    rows: csc_array
-    wanted: FloatArray
-    moves: FloatArray
-
-    def followed_by(self, other: Joining) -> Joining:
-        """Return these and others."""
-        return Joining(
-            csc_array(vstack([self.rows, other.rows])),
-            np.concatenate([self.wanted, other.wanted]),
-            np.concatenate([self.moves, other.moves]),
-        )
+    rows: csr_array
+    wanted: csr_array
+    compliance: FloatArray
 
     def first(self, count: int) -> Joining:
         """Return the first ones."""
-        return Joining(csc_array(self.rows[:count]), self.wanted[:count], self.moves[:count])
+        some = slice(count)
+        return Joining(self.rows[some], self.wanted[some], self.compliance[some, some])
+
+    def force(self, off: FloatArray) -> FloatArray:
+        """Return the pulls (k,) that change the combinations by so much, as well as can be."""
+        scale = np.sqrt(np.maximum(self.compliance.diagonal(), np.finfo(np.float64).tiny))
+        relative = self.compliance / scale[:, None] / scale
+        return np.asarray(np.linalg.lstsq(relative, off / scale, rcond=1e-10)[0] / scale)
 
 
 class Conditions:
@@ -161,37 +166,69 @@ class ClosestImages:
         self._factor = conditions.analysis.factor(schur)
 
     def _closed(self, images: FloatArray) -> FloatArray:
-        """Return the nearest images of edges, (2 ne,) or (2 ne, k), that close everywhere."""
+        """Return the nearest images of edges (2 ne,) that close everywhere."""
         closing = self.conditions.closing
-        inverse = self._inverse if images.ndim == 1 else self._inverse[:, None]
         for _ in range(PASSES):
             gap = closing @ images
             if np.abs(gap).max(initial=0.0) <= ROUNDING * np.abs(images).max(initial=0.0):
                 break
-            images = images - inverse * (closing.T @ self._factor.solve(gap))
+            images = images - self._inverse * (closing.T @ self._factor.solve(gap))
         return np.asarray(images)
 
-    def _as_map(self, images: FloatArray) -> SeamlessMap:
-        change = images - self._asked
-        asked = self._diagonal @ self._asked**2
-        distance = np.sqrt(self._diagonal @ change**2 / asked)
-        conditions = self.conditions
-        spread = (conditions.spread @ images).reshape(-1, 3, 2)
-        return SeamlessMap(conditions.matching, spread, float(distance))
+    def _answers(self, pulls: FloatArray) -> FloatArray:
+        """Return how closed images of edges change, (2 ne, k), under such pulls, to some digits."""
+        moves, closing = self._inverse[:, None] * pulls, self.conditions.closing
+        turned = closing.T @ self._factor.solve(closing @ moves)
+        return np.asarray(moves - self._inverse[:, None] * turned)
 
-    def joining(self, rows: csc_array) -> Joining:
-        """Return the rows of halfedges' images (k, 6 m) with the moves that change each."""
-        wanted = csc_array(rows @ self.conditions.spread).toarray()
-        return Joining(rows, wanted, self._closed(self._inverse[:, None] * wanted.T).T)
+    @cached_property
+    def _nearest(self) -> FloatArray:
+        """The nearest images of edges (2 ne,) that close, without joins."""
+        return self._closed(self._asked)
+
+    @cached_property
+    def _size(self) -> float:
+        """Square of the weighted norm of what is wanted."""
+        return float(self._diagonal @ self._asked**2)
+
+    def joining(self, rows: csr_array, before: Joining | None = None) -> Joining:
+        """Return the answers to rows of halfedges' images (k, 6 m), after those known before."""
+        wanted = csr_array(rows @ self.conditions.spread)
+        new, old = rows.shape[0], 0
+        if before is not None:
+            old = before.rows.shape[0]
+            rows, wanted = (
+                csr_array(vstack(pair)) for pair in ((before.rows, rows), (before.wanted, wanted))
+            )
+        compliance = np.zeros((old + new, old + new))
+        if before is not None:
+            compliance[:old, :old] = before.compliance
+        for low in range(old, old + new, AT_ONCE):
+            some = slice(low, low + AT_ONCE)
+            compliance[:, some] = wanted @ self._answers(wanted[some].toarray().T)
+            compliance[some, :low] = compliance[:low, some].T
+        return Joining(rows, wanted, compliance)
+
+    def distance(self, joining: Joining) -> float:
+        """Return how far the map would be from what is wanted, as of `SeamlessMap`, unsolved."""
+        off = joining.wanted @ self._nearest
+        # What closes images is at right angles to what joins them.
+        closing = self._diagonal @ (self._nearest - self._asked) ** 2
+        return float(np.sqrt((closing + max(off @ joining.force(off), 0.0)) / self._size))
 
     def joined(self, joining: Joining) -> SeamlessMap:
         """Return the nearest map on which also these combinations of its images vanish."""
-        images = self._closed(self._asked)
-        wanted, moves = joining.wanted, joining.moves
-        if len(wanted):
-            force = np.linalg.lstsq(wanted @ moves.T, wanted @ images, rcond=1e-10)[0]
-            images = images - force @ moves
-        return self._as_map(images)
+        images = self._nearest
+        for _ in range(PASSES):
+            off = joining.wanted @ images
+            if np.abs(off).max(initial=0.0) <= ROUNDING * np.abs(images).max(initial=0.0):
+                break
+            pulls = joining.wanted.T @ joining.force(off)
+            images = self._closed(images - self._inverse * pulls)
+        distance = np.sqrt(self._diagonal @ (images - self._asked) ** 2 / self._size)
+        conditions = self.conditions
+        spread = (conditions.spread @ images).reshape(-1, 3, 2)
+        return SeamlessMap(conditions.matching, spread, float(distance))
 
 
 def _to_halfedges(matching: Matching, edges: IntArray) -> csc_array:

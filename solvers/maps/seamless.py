@@ -14,7 +14,7 @@ from copy import copy
 from dataclasses import replace
 
 import numpy as np
-from scipy.sparse import csc_array
+from scipy.sparse import csr_array
 
 from solvers.fields.aligned import IntegratedField
 from solvers.fields.integrability import Integrability
@@ -105,7 +105,7 @@ class SeamlessFit:
         t = self.matching.triangulation
         self._stiffer = np.zeros(t.n_faces, dtype=bool)
         self._fit = ClosestImages(Conditions(self.matching), self._wanted, self._weight)
-        self.joins = self._fit.joining(csc_array((0, 6 * t.n_faces)))
+        self.joins = self._fit.joining(csr_array((0, 6 * t.n_faces)))
         self.map = self._fit.joined(self.joins)
 
     def _repaired(self, theta: FloatArray) -> bool:
@@ -129,7 +129,7 @@ class SeamlessFit:
         """Number of triangles made stiffer."""
         return int(self._stiffer.sum())
 
-    def joining(self, rows: csc_array) -> Joining:
+    def joining(self, rows: csr_array) -> Joining:
         """Return what `joined` needs to make linear combinations of images vanish.
 
         Parameters
@@ -142,7 +142,17 @@ class SeamlessFit:
         Joining
             Those that do already come first.
         """
-        return self.joins.followed_by(self._fit.joining(rows))
+        return self._fit.joining(rows, self.joins)
+
+    def distance(self, joining: Joining) -> float:
+        """Return how far the map with joins would be from what the field asks for, unsolved.
+
+        Parameters
+        ----------
+        joining : Joining
+            The combinations, prepared by this fit.
+        """
+        return self._fit.distance(joining)
 
     def joined(self, joining: Joining, most: float) -> SeamlessFit | None:
         """Return the nearest map on which more linear combinations of images vanish.
