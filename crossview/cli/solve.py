@@ -10,8 +10,9 @@ from cyclopts import Parameter
 
 from crossview.cases.model import Case
 from crossview.cli.options import QUADS, CaseOptions, Flag, Json, Output, QuadOptions, Quiet
-from crossview.cli.terminal import say, say_json, watch
+from crossview.cli.terminal import complain, say, say_json, watch
 from crossview.io.staged_files import staged
+from crossview.workflow.certification import certified
 from crossview.workflow.layout import layout_soon
 from crossview.workflow.pipeline import Solution, of_component, solve_case
 from crossview.workflow.quads import MeshOptions, quads_of, require_closing
@@ -20,7 +21,8 @@ from solvers.layouts import QuadLayout
 from solvers.progress import Progress
 from solvers.quads import QuadMesh
 
-Results = list[tuple[Solution, QuadLayout | None, QuadMesh | None]]
+Result = tuple[Solution, QuadLayout | None, QuadMesh | None]
+Results = list[Result]
 
 
 def solve(
@@ -32,9 +34,10 @@ def solve(
     quads: Annotated[Flag, Parameter(group=QUADS)] = False,
     sizes: QuadOptions = QuadOptions(),
     formats: Annotated[str | None, Parameter(group=QUADS)] = None,
+    allow_inverted: Annotated[Flag, Parameter(group=QUADS)] = False,
     quiet: Quiet = False,
     as_json: Json = False,
-) -> None:
+) -> int:
     """Solve a case; write report.json and VTK files that ParaView opens.
 
     Parameters
@@ -49,6 +52,8 @@ def solve(
     formats
         Of the quads: some of obj, vtk, vtu, ply, gltf, glb and msh (Gmsh, with named boundaries),
         such as vtk,msh; vtk,obj if not given.
+    allow_inverted
+        Write quads also where one is inverted; the exit status is 1 either way.
     as_json
         Print the report, or a list of them for all components.
     """
@@ -57,11 +62,15 @@ def solve(
 
     wanted = sizes.wanted(quads, "add --quads")
     kinds = _formats(formats, quads)
+    if allow_inverted and not quads:
+        raise CrossviewError("--allow-inverted is about quads", "", "add --quads")
     found = chosen.case(case)
     with staged(output, found.files) as staging:
-        results = watch(_solved_into(staging, found, wanted, kinds), quiet)
+        results = watch(_solved_into(staging, found, wanted, kinds, allow_inverted), quiet)
+    spoiled = _spoiled(results)
     if as_json:
-        reports = [report(*made) for made in results]
+        withheld = [] if allow_inverted else spoiled
+        reports = [report(*made, i not in withheld) for i, made in enumerate(results)]
         say_json(reports if found.options.component == "all" else reports[0])
     elif not quiet:
         for solution, layout, made in results:
@@ -69,6 +78,31 @@ def solve(
             if layout is not None and made is not None:
                 say(quads_summary(solution, layout, made))
         say(f"wrote {Path(output)}")
+    for number in spoiled:
+        _complain(results[number], number if len(results) > 1 else None, allow_inverted)
+    return 1 if spoiled else 0
+
+
+def _spoiled(results: Results) -> list[int]:
+    """Which results have inverted quads."""
+    return [
+        number
+        for number, (solution, _, made) in enumerate(results)
+        if made is not None and certified(solution, made).inverted
+    ]
+
+
+def _complain(result: Result, component: int | None, allowed: bool) -> None:
+    """Tell how many quads are inverted, where, and what is to be done."""
+    solution, _, made = result
+    if made is None:
+        return
+    faults = certified(solution, made).faults
+    fault = next(str(fault) for fault in faults if fault.kind == "inverted")
+    where = "" if component is None else f"component {component}: "
+    done = "written as allowed" if allowed else "no quads are written, all else is"
+    advice = "" if allowed else ": try another number of quads, or add --allow-inverted"
+    complain(f"crossview: {where}inverted quads, {fault}; {done}{advice}")
 
 
 def _formats(text: str | None, quads: bool) -> Sequence[str]:
@@ -87,7 +121,7 @@ def _formats(text: str | None, quads: bool) -> Sequence[str]:
 
 
 def _solved_into(
-    directory: Path, case: Case, wanted: MeshOptions | None, formats: Sequence[str]
+    directory: Path, case: Case, wanted: MeshOptions | None, formats: Sequence[str], inverted: bool
 ) -> Generator[Progress, None, Results]:
     from crossview.export.report import write_files
 
@@ -101,10 +135,12 @@ def _solved_into(
         else:
             with of_component(number if len(solutions) > 1 else None):
                 results.append((yield from quads_of(solution, wanted)))
+    yield Progress("checking the quads", 0.8)
+    spoiled = [] if inverted else _spoiled(results)
     yield Progress("writing", 0.9)
     for number, (solution, layout, made) in enumerate(results):
         one_of_many = case.options.component == "all"
         folder = directory / f"component-{number}" if one_of_many else directory
         folder.mkdir(exist_ok=True)
-        write_files(solution, folder, layout, made, formats)
+        write_files(solution, folder, layout, made, () if number in spoiled else formats)
     return results

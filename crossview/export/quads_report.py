@@ -17,13 +17,14 @@ TOLD = ("inverted", "count")
 """Kinds of faults that the line tells in its own words."""
 
 
-def quads_report(solution: Solution, mesh: QuadMesh) -> dict[str, Any]:
+def quads_report(solution: Solution, mesh: QuadMesh, delivered: bool = True) -> dict[str, Any]:
     """Counts and quality of a quad mesh; valences are written as text, for they are keys."""
     quality, chosen = mesh.scaled_jacobian, mesh.quantization
     certificate = certified(solution, mesh)
     return {
         "vertices": mesh.n_vertices,
         "quads": mesh.n_quads,
+        "delivered": delivered,
         "wanted": None if chosen is None else chosen.n_wanted,
         "least_possible": None if chosen is None else chosen.n_fewest,
         "non_quads": certificate.measures["counts"]["non_quads"],
@@ -65,7 +66,7 @@ def _faults(certificate: Certificate) -> str:
     """What the certificate finds; nothing helps where two quads share 360 degrees."""
     said, wide = "", certificate.measures["corners"]["excused_at_valence_2"]
     if certificate.inverted:
-        said += f"; {certificate.inverted} are inverted: try more quads"
+        said += f"; {counted(certificate.inverted, 'quad')} inverted: try more quads"
     if wide:
         said += f"; {wide} have a corner of 180 degrees or more, as those around a valence 2 do"
     others = [str(fault) for fault in certificate.faults if fault.kind not in TOLD]

@@ -39,7 +39,10 @@ FORMATS = ("vtk", "obj")
 
 
 def report(
-    solution: Solution, layout: QuadLayout | None = None, quads: QuadMesh | None = None
+    solution: Solution,
+    layout: QuadLayout | None = None,
+    quads: QuadMesh | None = None,
+    delivered: bool = True,
 ) -> dict[str, Any]:
     """The report of a solution as JSON values; angles in degrees, indices in quarter turns.
 
@@ -48,7 +51,7 @@ def report(
     the order of ``surface.boundary_loops`` of the first. "holonomy" and "isotropically_valid" are
     those of the isotropic field of the configuration, whatever the method; the "turns" are the
     method's. "layout" tells of the separatrices, and of patches if a layout is given; "quads" is
-    there if a quad mesh is.
+    there if a quad mesh is, "delivered" in it whether files of it are written.
     """
     problem, field = solution.problem, solution.field
     surface, solved_on = problem.surface, solution.surface
@@ -102,7 +105,7 @@ def report(
         "forced_corners": _forced_corners(solution),
         **_integrability(solution),
         "layout": _layout(solution, layout),
-        **({} if quads is None else {"quads": quads_report(solution, quads)}),
+        **({} if quads is None else {"quads": quads_report(solution, quads, delivered)}),
         "residual": float(field.residual),
         "max_closing_error": float(field.max_closing_error),
         "seconds": {stage: round(time, 6) for stage, time in solution.seconds.items()},
@@ -200,7 +203,10 @@ def write_files(
         for suffix in formats:
             write_mesh(quads, directory / f"quads.{suffix}")
     text = json.dumps(
-        report(solution, layout, quads), indent=2, ensure_ascii=False, allow_nan=False
+        report(solution, layout, quads, bool(formats)),
+        indent=2,
+        ensure_ascii=False,
+        allow_nan=False,
     )
     (directory / REPORT).write_text(text + "\n", encoding="utf-8")
 
