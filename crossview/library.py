@@ -418,6 +418,7 @@ def batch(
     workers: int | None = None,
     time_limit: float = TIME_LIMIT,
     memory_limit: float | None = None,
+    scheduler: str | None = None,
     progress: Watch = None,
 ) -> list[dict[str, Any]]:
     """Run the cases of a study in several processes; write a table and a page of all figures.
@@ -435,6 +436,8 @@ def batch(
         Seconds that a case may take.
     memory_limit : float, optional
         Memory that a case may take, in 1e9 bytes; a process's share of the machine if not given.
+    scheduler : str, optional
+        Address of the scheduler of a dask.distributed cluster, to work there.
     progress : callable, optional
         Called as each case ends.
 
@@ -463,9 +466,9 @@ def batch(
     limits = Limits(time_limit, memory_limit)
     if workers is not None:
         workers = whole_number("the number of workers", workers, 1)
-    return run(
-        run_study(study, _path("folder", directory), workers=workers, limits=limits), progress
-    )
+    folder = _path("folder", directory)
+    computation = run_study(study, folder, workers=workers, limits=limits, scheduler=scheduler)
+    return run(computation, progress)
 
 
 def write_case(

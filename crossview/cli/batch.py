@@ -20,6 +20,7 @@ def batch(
     workers: int | None = None,
     time_limit: float = TIME_LIMIT,
     memory_limit: float | None = None,
+    scheduler: str | None = None,
     quiet: Quiet = False,
 ) -> None:
     """Run the cases of a study in several processes; write a table and a page of all figures.
@@ -39,12 +40,17 @@ def batch(
         Seconds that a case may take.
     memory_limit
         Gigabytes that a case may take; a process's share of the machine if not given.
+    scheduler
+        Address of the scheduler of a dask.distributed cluster, to work there.
     """
     found = Study.load(study)
     if workers is not None:
         workers = whole_number("--workers", workers, 1)
     limits = Limits(time_limit, memory_limit)
-    rows = watch(run_study(found, Path(output), workers=workers, limits=limits), quiet)
+    computation = run_study(
+        found, Path(output), workers=workers, limits=limits, scheduler=scheduler
+    )
+    rows = watch(computation, quiet)
     if not quiet:
         ended = Counter(row["status"] for row in rows)
         told = ", ".join(f"{count} {status}" for status, count in ended.most_common())

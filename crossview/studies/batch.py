@@ -4,28 +4,39 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Generator, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator
+from functools import partial
 from pathlib import Path
 
 from crossview.io.staged_files import staged
+from crossview.studies.cluster import on_cluster
 from crossview.studies.ledger import Ledger, ledger
 from crossview.studies.limits import Limits
 from crossview.studies.messages import Job
-from crossview.studies.outcome import DONE
+from crossview.studies.outcome import DONE, Outcome
 from crossview.studies.page import page
-from crossview.studies.parcels import digest, files_of
+from crossview.studies.parcels import digest
 from crossview.studies.plan import Refusal, Task, plan
 from crossview.studies.processes import cores, in_processes, memory
 from crossview.studies.study import Study
 from crossview.studies.table import Row, as_csv, refused, row
+from solvers.errors import CrossviewError
 from solvers.progress import Progress
+
+Engine = Callable[[Iterable[Job]], Iterator[tuple[Job, Outcome]]]
+"""What works on jobs and yields what came of each."""
 
 TABLE, PAGE = "table.csv", "index.html"
 """The files that tell of the whole study."""
 
 
 def batch(
-    study: Study, folder: Path, *, workers: int | None = None, limits: Limits = Limits()
+    study: Study,
+    folder: Path,
+    *,
+    workers: int | None = None,
+    limits: Limits = Limits(),
+    scheduler: str | None = None,
 ) -> Generator[Progress, None, list[Row]]:
     """Run what is missing of a study in a folder, then write its table and its page.
 
@@ -39,6 +50,8 @@ def batch(
         Number of processes; one for each core if it is not given.
     limits : Limits, optional
         Of each case; without a memory limit each process has its share of the machine's.
+    scheduler : str, optional
+        Address of the scheduler of a dask.distributed cluster, to work there.
 
     Returns
     -------
@@ -50,15 +63,21 @@ def batch(
     CrossviewError
         The study cannot be begun, or the folder cannot be written.
     """
+    if scheduler is None:
+        crew = cores() if workers is None else workers
+        if limits.gigabytes is None:
+            limits = Limits(limits.seconds, memory() / crew)
+        engine = partial(in_processes, limits=limits, workers=crew)
+    elif workers is None:
+        engine = partial(on_cluster, limits=limits, scheduler=scheduler)
+    else:
+        raise CrossviewError("a cluster has workers of its own", "workers", "leave the number out")
     yield Progress("planning", 0.0)
     tasks = plan(study)
-    crew = cores() if workers is None else workers
-    if limits.gigabytes is None:
-        limits = Limits(limits.seconds, memory() / crew)
     begun = [task for task in tasks if isinstance(task, Task)]
     with ledger(folder) as kept:
         try:
-            yield from _work(begun, kept, limits, crew)
+            yield from _work(begun, kept, limits, engine)
         finally:  # also of what there is when it is stopped
             rows = _rows(study, tasks, kept)
             with staged(folder) as staging:
@@ -68,7 +87,7 @@ def batch(
 
 
 def _work(
-    tasks: list[Task], kept: Ledger, limits: Limits, crew: int
+    tasks: list[Task], kept: Ledger, limits: Limits, engine: Engine
 ) -> Generator[Progress, None, None]:
     """Work on the tasks that have not ended yet, each case once."""
     missing = {
@@ -77,7 +96,7 @@ def _work(
         if not (task.key in kept.entries and kept.entries[task.key].stands(limits))
     }
     begun, counts = time.monotonic(), Counter[str]()
-    for job, outcome in in_processes(_jobs(missing.values(), kept), limits, crew):
+    for job, outcome in engine(_jobs(missing.values(), kept)):
         kept.add(job.task.key, outcome, limits)
         counts[outcome.status] += 1
         yield _progress(counts, len(missing), time.monotonic() - begun)
@@ -85,7 +104,7 @@ def _work(
 
 def _jobs(tasks: Iterable[Task], kept: Ledger) -> Iterator[Job]:
     for task in tasks:
-        digests = {file: digest(file) for file in files_of(task.case)}
+        digests = {file: digest(file) for file in task.case.files}
         yield Job(task, kept.home(task.key).absolute(), digests)
 
 

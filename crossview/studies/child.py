@@ -37,6 +37,7 @@ def main() -> None:
                         perform(task, home, here, kept, lambda step: connection.send(At(step)))
                     )
                     shutil.rmtree(kept)
+    shutil.rmtree(folder, ignore_errors=True)  # also where the parent was killed
 
 
 def _reserved() -> int:

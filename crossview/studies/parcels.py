@@ -115,18 +115,6 @@ def _unreadable(file: str, error: OSError) -> CrossviewError:
     return CrossviewError(f"cannot open the file: {reason}", file)
 
 
-def files_of(case: Case) -> tuple[str, ...]:
-    """Return the files that a case names.
-
-    Parameters
-    ----------
-    case : Case
-        Perhaps of a built-in surface, without a file.
-    """
-    named = (case.surface, case.options.sizes)
-    return tuple(file for file in named if isinstance(file, str))
-
-
 def with_files(case: Case, places: Mapping[str, str]) -> Case:
     """Return the same case with its files at other places.
 
@@ -135,7 +123,7 @@ def with_files(case: Case, places: Mapping[str, str]) -> Case:
     case : Case
         What to change.
     places : mapping of str to str
-        The other path for each of `files_of`.
+        The other path for each of the case's files.
     """
     if isinstance(case.surface, str):
         case = replace(case, surface=places[case.surface])

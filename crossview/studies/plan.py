@@ -21,7 +21,7 @@ import numpy as np
 from crossview.cases.gallery import find_case
 from crossview.cases.json_values import CaseError
 from crossview.cases.model import Case
-from crossview.studies.parcels import digest, files_of, with_files
+from crossview.studies.parcels import digest, with_files
 from crossview.studies.places import of_a_step, put, with_option
 from crossview.studies.steps import Step, StepShape
 from crossview.studies.study import Source, Study
@@ -199,7 +199,7 @@ def _varied(
 
 def _key(case: Case, steps: tuple[Step, ...], files: tuple[str, ...]) -> str:
     """What the result depends on, as 32 hexadecimal digits."""
-    named = {file: digest(file) for file in files_of(case)}
+    named = {file: digest(file) for file in case.files}
     data = {
         "version": version("crossview"),
         "case": with_files(case, named).to_json() | {"title": ""},
