@@ -31,7 +31,7 @@ from solvers.singularities import (
     checked_singularities,
     default_corners,
 )
-from solvers.surface import FloatArray, TriSurface
+from solvers.surface import FloatArray, SurfacePoint, TriSurface
 
 REACH = 0.05
 """How far from the surface a position may be, in diagonals of the surface."""
@@ -59,6 +59,9 @@ class Problem:
         Which edges of `surface` are features.
     source : str or Builtin, optional
         What `surface` was read from or made by; None: in Python.
+    places : mapping of SurfacePoint to tuple of 3 float, optional
+        Positions in space that points of `surface` were found by: a case tells the same ones again,
+        to the last digit.
 
     Raises
     ------
@@ -84,6 +87,7 @@ class Problem:
     notes: tuple[str, ...] = ()
     marking: Marking = field(default_factory=Marking)
     source: str | Builtin | None = None
+    places: Mapping[SurfacePoint, Position] = field(default_factory=dict, repr=False)
 
     def __post_init__(self) -> None:
         check_method(self.method, "method")
@@ -178,8 +182,7 @@ class Problem:
             One line on what the case shows.
         """
         singularities = tuple(
-            PlacedSingularity(_triple(self.surface.position(s.point)), s.valence, s.locked)
-            for s in self.singularities
+            PlacedSingularity(self._place(s.point), s.valence, s.locked) for s in self.singularities
         )
         corners = None
         if self.corners is not None:
@@ -197,6 +200,10 @@ class Problem:
             title=title,
             features=features,
         )
+
+    def _place(self, point: SurfacePoint) -> Position:
+        """Where a point is, as the case had it if it did."""
+        return self.places.get(point) or _triple(self.surface.position(point))
 
 
 def problems_of(case: Case) -> tuple[Problem, ...]:
@@ -220,6 +227,7 @@ def problems_on(case: Case, pieces: Sequence[Repaired]) -> tuple[Problem, ...]:
     """
     surfaces = [piece.surface for piece in pieces]
     singularities: list[list[Singularity]] = [[] for _ in surfaces]
+    found: list[dict[SurfacePoint, Position]] = [{} for _ in surfaces]
     for number, given in enumerate(case.singularities, start=1):
         name = f"singularity #{number}"
         places = [surface.closest_point(given.position) for surface in surfaces]
@@ -229,6 +237,7 @@ def problems_on(case: Case, pieces: Sequence[Repaired]) -> tuple[Problem, ...]:
         ]
         nearest = _within_reach(gaps, name, given.position)
         singularities[nearest].append(Singularity(places[nearest], given.valence, given.locked))
+        found[nearest][places[nearest]] = given.position
     corners = _corners(case, surfaces)
     markings = _markings(case, surfaces)
     return tuple(
@@ -241,9 +250,10 @@ def problems_on(case: Case, pieces: Sequence[Repaired]) -> tuple[Problem, ...]:
             piece.notes,
             marking,
             case.surface,
+            positions,
         )
-        for piece, placed, cornered, marking in zip(
-            pieces, singularities, corners, markings, strict=True
+        for piece, placed, cornered, marking, positions in zip(
+            pieces, singularities, corners, markings, found, strict=True
         )
     )
 
