@@ -18,6 +18,7 @@ from solvers.quads import (
     MOST_QUADS,
     QuadMesh,
     bending_conditions,
+    bent_spacing,
     fill,
     quantize_to,
     smooth,
@@ -114,7 +115,8 @@ def quads(layout: QuadLayout, options: MeshOptions) -> Generator[Progress, None,
     bends = bending_conditions(layout, options.max_chord)
     chosen = quantize_to(layout.tmesh, number, conditions=bends)
     yield Progress("filling the patches", 0.3)
-    filled = replace(fill(layout, chosen.counts), quantization=chosen)
+    spacing = bent_spacing(layout, chosen.counts, options.max_chord)
+    filled = replace(fill(layout, chosen.counts, spacing), quantization=chosen)
     if options.smooth:
         yield Progress("smoothing", 0.5)
         curves = layout.integrated.aligned.features.curves

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from solvers.quads.bending import MAX_CHORD, bending_conditions
+from solvers.quads.bending import MAX_CHORD, bending_conditions, bent_spacing
 from solvers.quads.corners import scaled_jacobian
 from solvers.quads.filling import fill
 from solvers.quads.quadmesh import QuadMesh
@@ -21,6 +21,7 @@ __all__ = [
     "QuadMesh",
     "Quantization",
     "bending_conditions",
+    "bent_spacing",
     "fewest_quads",
     "fill",
     "quantize",

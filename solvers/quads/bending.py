@@ -1,4 +1,4 @@
-"""How many edges arcs of boundaries and features need to follow their bends."""
+"""How many edges arcs of boundaries and features need to follow their bends, and where."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from solvers.layouts.layout import QuadLayout
 from solvers.layouts.straight import barycentric_in
 from solvers.number_checks import real_number
 from solvers.quads.collapse import Condition
+from solvers.quads.spacing import spread
 from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
 
 MAX_CHORD = 0.01
@@ -77,6 +78,57 @@ def bending_conditions(layout: QuadLayout, max_chord: float = MAX_CHORD) -> list
     for stretch in _stretches(layout.arrangement, bent):
         found += _of_stretch(stretch, _polylines(layout, stretch.arcs), turn)
     return found
+
+
+def bent_spacing(
+    layout: QuadLayout, counts: IntArray, max_chord: float = MAX_CHORD
+) -> dict[int, FloatArray]:
+    """Return where along bent arcs vertices are to be, where equal shares do not follow the bend.
+
+    Parameters
+    ----------
+    layout : QuadLayout
+        The rectangles on the surface.
+    counts : (A,) int array
+        Number of edges along each arc.
+    max_chord : float
+        As of `bending_conditions`.
+
+    Returns
+    -------
+    dict from int to (count + 1,) float array
+        For an arc how far along it, from 0 to 1 in the map, its vertices are: as nearly in equal
+        shares as lets no edge turn by too much; the other arcs go along. Empty if all are in equal
+        shares.
+
+    Examples
+    --------
+    One patch, the sides of which are straight:
+
+    >>> import numpy as np
+    >>> from solvers import run
+    >>> from solvers.fields import IntegratedField, aligned_field, prepare
+    >>> from solvers.layouts import quad_layout
+    >>> from solvers.primitives import square
+    >>> aligned = aligned_field(prepare(square(n=4)))
+    >>> layout = run(quad_layout(IntegratedField(aligned, aligned.start)))
+    >>> from solvers.quads import bent_spacing
+    >>> bent_spacing(layout, np.full(layout.tmesh.n_arcs, 3))
+    {}
+    """
+    turn = _largest_turn(max_chord)
+    bent = np.flatnonzero(_arcs_of_features(layout)[0] & (counts > 1))
+    if len(bent) == 0:
+        return {}
+    lines = zip(bent.tolist(), _polylines(layout, bent), strict=True)
+    spaced = {arc: _spaced(line, int(counts[arc]), turn) for arc, line in lines}
+    if all(places is None for places in spaced.values()):
+        return {}
+    equal = {arc: np.arange(counts[arc] + 1) / counts[arc] for arc in bent.tolist()}
+    held = {arc: equal[arc] if places is None else places for arc, places in spaced.items()}
+    every = _polylines(layout, np.arange(layout.tmesh.n_arcs))
+    points = [_shared(line, int(n)) for line, n in zip(every, counts, strict=True)]
+    return spread(layout.tmesh, points, counts, held)
 
 
 def _largest_turn(max_chord: float) -> float:
@@ -206,10 +258,30 @@ def _chained(lines: Sequence[_Polyline]) -> _Polyline:
 
 
 def _edges_for(line: _Polyline, turn: float) -> int:
-    """Return the least number of edges that follow, as the notes of `bending_conditions` say."""
+    """Return the least number of edges, of equal shares or spaced, none of which is off by much."""
     turning = _turning(line, turn)
     most = max(1, int(np.ceil(turning.sum() / turn - 1e-6)))
     return next((n for n in range(1, most) if _follow(line, turning, n, turn)), most)
+
+
+def _spaced(line: _Polyline, n: int, turn: float) -> FloatArray | None:
+    """Return where (n + 1,) vertices are so that edges follow, from 0 to 1; None if equally far."""
+    turning = _turning(line, turn)
+    if n < 2 or _follow(line, turning, n, turn):
+        return None
+    # A vertex's turn is spread over the steps beside it.
+    total = np.cumsum(turning) - 0.5 * turning
+    bends = min(1.0, total[-1] / (n * turn))
+    even = line.at / line.at[-1]
+    share = (1 - bends) * even + bends * total / total[-1]
+    return np.asarray(np.interp(np.arange(n + 1) / n, share, even))
+
+
+def _shared(line: _Polyline, n: int) -> FloatArray:
+    """Return the ends (n + 1, 3) of n edges of equal shares."""
+    share = line.at / line.at[-1] * n
+    columns = [np.interp(np.arange(n + 1), share, column) for column in line.points.T]
+    return np.stack(columns, axis=1)
 
 
 def _turning(line: _Polyline, turn: float) -> FloatArray:
@@ -227,9 +299,7 @@ def _turning(line: _Polyline, turn: float) -> FloatArray:
 
 def _follow(line: _Polyline, turning: FloatArray, n: int, turn: float) -> bool:
     """Return whether n edges of equal shares turn by little, or are off by little."""
-    share = line.at / line.at[-1] * n
-    columns = [np.interp(np.arange(n + 1), share, column) for column in line.points.T]
-    ends = np.stack(columns, axis=1)
+    share, ends = line.at / line.at[-1] * n, _shared(line, n)
     edge = np.clip(share.astype(np.int64), 0, n - 1)
     much = np.bincount(edge, turning, minlength=n) > turn * (1 + 1e-6)
     along = np.diff(ends, axis=0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,7 +22,9 @@ from solvers.quads.quadmesh import QuadMesh
 from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
 
 
-def fill(layout: QuadLayout, counts: IntArray) -> QuadMesh:
+def fill(
+    layout: QuadLayout, counts: IntArray, spacing: Mapping[int, FloatArray] | None = None
+) -> QuadMesh:
     """Fill every rectangle with a grid of quads.
 
     Parameters
@@ -31,6 +34,8 @@ def fill(layout: QuadLayout, counts: IntArray) -> QuadMesh:
     counts : (A,) int array
         Number of quads along each arc, the same on opposite sides of every rectangle. Where it is
         0, the rectangle vanishes and its other two sides become one.
+    spacing : mapping from int to (count + 1,) float array, optional
+        Where along an arc its vertices are, from 0 to 1; in equal shares of those without.
 
     Returns
     -------
@@ -59,7 +64,7 @@ def fill(layout: QuadLayout, counts: IntArray) -> QuadMesh:
     >>> mesh.n_quads, round(float(mesh.scaled_jacobian.min()), 9)
     (9, 1.0)
     """
-    points = _Points(layout.arrangement, _checked(layout.tmesh, counts))
+    points = _Points(layout.arrangement, _checked(layout.tmesh, counts), spacing or {})
     grids = [_grid(points, r) for r in range(layout.patches)]
     face, weights = points.located()
     n = layout.tmesh.n_nodes
@@ -107,9 +112,12 @@ class _Points:
         Vertices that are one.
     """
 
-    def __init__(self, arrangement: Arrangement, counts: IntArray) -> None:
+    def __init__(
+        self, arrangement: Arrangement, counts: IntArray, spacing: Mapping[int, FloatArray]
+    ) -> None:
         self.arrangement = arrangement
         self.counts = counts
+        self._spacing = spacing
         tmesh = arrangement.tmesh
         inside = np.maximum(counts - 1, 0)
         self._first = tmesh.n_nodes + np.concatenate([[0], np.cumsum(inside)])
@@ -126,7 +134,11 @@ class _Points:
     def along(self, arc: IntArray, step: IntArray) -> FloatArray:
         """Return the lengths along its curve of vertices of arcs."""
         start, end = self.arrangement.arc_span[arc].T
-        return np.asarray(start + (end - start) * step / np.maximum(self.counts[arc], 1))
+        share = step / np.maximum(self.counts[arc], 1)
+        for spaced in np.intersect1d(arc, list(self._spacing)).astype(np.int64).tolist():
+            on = arc == spaced
+            share[on] = self._spacing[spaced][step[on]]
+        return np.asarray(start + (end - start) * share)
 
     def side(self, halfarcs: IntArray) -> _Side:
         """Return the vertices along a side of a rectangle."""
@@ -142,9 +154,11 @@ class _Points:
                 number += [inner[::-1] if backwards else inner, end]
                 step = np.arange(1, n + 1)
                 steps.append(n - step if backwards else step)
+                share = self._spacing.get(arc, np.arange(n + 1) / n)
+                share = (1 - share[::-1] if backwards else share)[1:]
                 arcs.append(np.full(n, arc))
                 signs.append(np.full(n, 1 - 2 * backwards))
-                places.append(length + tmesh.lengths[arc] * step / n)
+                places.append(length + tmesh.lengths[arc] * share)
             length += float(tmesh.lengths[arc])
         arc = np.concatenate(arcs)
         return _Side(

@@ -8,10 +8,12 @@ from solvers.features.edges import Features
 from solvers.layouts.layout import QuadLayout, quad_layout
 from solvers.primitives import BUILTIN
 from solvers.progress import run
-from solvers.quads.bending import bending_conditions
+from solvers.quads.bending import bending_conditions, bent_spacing
 from solvers.quads.filling import fill
+from solvers.quads.quadmesh import QuadMesh
 from solvers.quads.quantization import quantize_to
-from tests.solvers.layouts.fields import integrated, layout_of
+from solvers.quads.smoothing import smooth
+from tests.solvers.layouts.fields import at_places, integrated, layout_of
 
 
 def boundary_turns(layout: QuadLayout, n_quads: int, max_chord: float) -> np.ndarray:
@@ -92,3 +94,47 @@ def test_features_stay_apart() -> None:
         on = np.abs(mesh.vertices[mesh.edges][:, :, 1] - height).max(axis=1) < 1e-9
         ends = mesh.vertices[mesh.edges[on]][:, :, 0]
         assert np.abs(np.diff(ends, axis=1)).sum() == pytest.approx(1.0)
+
+
+def stretched(places: list[list[float]], valences: list[int]) -> QuadMesh:
+    """1 500 quads on an annulus whose sizes span 30 and more along a single arc of its boundary."""
+    surface = BUILTIN["annulus"](inner=0.4)
+    layout = run(quad_layout(integrated(surface, at_places(surface, places, valences))))
+    chosen = quantize_to(layout.tmesh, 1500, conditions=bending_conditions(layout))
+    spacing = bent_spacing(layout, chosen.counts)
+    assert spacing
+    return smooth(fill(layout, chosen.counts, spacing))
+
+
+def area(mesh: QuadMesh) -> float:
+    corners = mesh.vertices[mesh.quads]
+    across = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+    return float(0.5 * across[:, 2].sum())
+
+
+def off_circles(mesh: QuadMesh) -> float:
+    """Largest distance of a boundary edge's middle from its circle, in radii."""
+    edges = mesh.edges[mesh.on_boundary[mesh.edges].all(axis=1)]
+    edges = edges[mesh.boundary_loop[edges[:, 0]] == mesh.boundary_loop[edges[:, 1]]]
+    middle = np.linalg.norm(mesh.vertices[edges].mean(axis=1), axis=1)
+    return float((1 - middle / np.where(middle > 0.7, 1.0, 0.4)).max())
+
+
+def test_a_boundary_along_which_sizes_differ_much_keeps_its_shape() -> None:
+    mesh = stretched([[0.7, 0, 0], [0.75, 0.3, 0], [-0.6, 0, 0], [-0.7, -0.2, 0]], [3, 3, 5, 5])
+    assert mesh.scaled_jacobian.min() > 0.5
+    assert area(mesh) == pytest.approx(np.pi * 0.84, rel=0.005)
+    assert off_circles(mesh) < 0.01
+
+
+def test_of_the_most_stretched_annulus_little_is_lost_and_nothing_inverted() -> None:
+    """In equal shares of the map an edge of 1.34 takes 12 % of the area away."""
+    mesh = stretched([[0.8, 0, 0], [-0.6, 0, 0]], [3, 5])
+    assert mesh.scaled_jacobian.min() > 0
+    assert area(mesh) == pytest.approx(np.pi * 0.84, rel=0.01)
+    assert off_circles(mesh) < 0.02
+
+
+def test_circles_of_even_sizes_are_in_equal_shares() -> None:
+    layout = layout_of("disk with four")
+    assert bent_spacing(layout, quantize_to(layout.tmesh, 1500).counts) == {}
