@@ -133,6 +133,8 @@ def natural(
     weight: float = CURVATURE_WEIGHT,
     most_valence: int = MOST_VALENCE,
     fewest: bool = False,
+    most: int | None = None,
+    scale: float | None = None,
     progress: Watch = None,
 ) -> Problem:
     """Put the singularities of a smooth cross-field in place of a problem's.
@@ -153,6 +155,10 @@ def natural(
         Of a singularity; none has less than 2.
     fewest : bool, optional
         Whether as few singularities are to be left as the index budget allows.
+    most : int, optional
+        How many singularities at most.
+    scale : float, optional
+        Length below which details of the surface do not count, in its units.
     progress : callable, optional
         Called with each step.
 
@@ -164,8 +170,8 @@ def natural(
     Raises
     ------
     CrossviewError
-        The method or the alignment is unknown, the weight is negative or not finite, or the most
-        valence is below 5.
+        The method or the alignment is unknown, the weight is negative or not finite, the most
+        valence is below 5, the scale is not above 0, or the singularities cannot be as few as that.
 
     Examples
     --------
@@ -185,6 +191,8 @@ def natural(
         weight=weight,
         most_valence=most_valence,
         fewest=fewest,
+        most=most,
+        scale=scale,
     )
     return run(computation, progress)
 

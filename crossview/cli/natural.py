@@ -20,6 +20,8 @@ def natural(
     weight: float = CURVATURE_WEIGHT,
     most_valence: int = MOST_VALENCE,
     fewest: bool = False,
+    most: int | None = None,
+    scale: float | None = None,
     chosen: FeatureOptions = FeatureOptions(),
     quiet: Quiet = False,
 ) -> None:
@@ -43,6 +45,10 @@ def natural(
         Of a singularity; none has less than 2.
     fewest
         Let opposite indices cancel until as few are left as the index budget allows.
+    most
+        How many singularities at most: opposite indices cancel and equal ones are merged.
+    scale
+        Length below which details of the surface do not count, in its units.
     """
     found = chosen.case(surface)
     given = Problem.from_case(found)
@@ -54,6 +60,8 @@ def natural(
         weight=weight,
         most_valence=most_valence,
         fewest=fewest,
+        most=most,
+        scale=scale,
     )
     problem = watch(computation, quiet)
     problem.to_case(found.surface, found.title).save(output)

@@ -35,13 +35,15 @@ def natural(
     weight: float = CURVATURE_WEIGHT,
     most_valence: int = MOST_VALENCE,
     fewest: bool = False,
+    most: int | None = None,
+    scale: float | None = None,
 ) -> Placing:
     """Put the singularities of a smooth cross-field in place of a problem's, with its own corners.
 
     Parameters
     ----------
     problem : Problem
-    method, seed, alignment, weight, most_valence, fewest
+    method, seed, alignment, weight, most_valence, fewest, most, scale
         As of `solvers.fields.natural_singularities`.
 
     Raises
@@ -59,6 +61,8 @@ def natural(
         features=bare.features,
         most_valence=most_valence,
         fewest=fewest,
+        most=most,
+        scale=scale,
     )
     require_budget(bare.surface, singularities, bare.chosen_corners)
     return replace(bare, singularities=singularities)

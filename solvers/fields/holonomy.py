@@ -110,6 +110,21 @@ class Holonomy:
         own = nodal[:, d.surface.faces]
         return np.asarray(own + np.rint(centre - own))
 
+    def corner_values(self, faces: IntArray) -> FloatArray:
+        """Return the potentials at the corners of triangles of the working triangulation.
+
+        Parameters
+        ----------
+        faces : (k,) int array
+            Their numbers there, as of `Discretization.place`.
+
+        Returns
+        -------
+        (c, k, 3) float array
+            Up to whole numbers.
+        """
+        return np.asarray(self._corner_values[:, faces])
+
     def values_at(self, faces: IntArray, weights: FloatArray) -> FloatArray:
         """Return the exact values of the potentials at points of the surface.
 
@@ -146,7 +161,7 @@ class Holonomy:
         placed = checked_singularities(singularities)
         faces, weights = self.discretization.place([s.point for s in placed])
         index = np.array([s.index for s in placed], dtype=np.float64)
-        potential = np.einsum("ckj,kj->ck", self._corner_values[:, faces], weights)
+        potential = np.einsum("ckj,kj->ck", self.corner_values(faces), weights)
         return wrap(self._constant + QUARTER * potential @ index, QUARTER)
 
     def gradients(self, points: Sequence[SurfacePoint]) -> FloatArray:

@@ -29,6 +29,7 @@ from solvers.algebra.factorization import factorized
 from solvers.errors import CrossviewError
 from solvers.features.edges import Features, no_features
 from solvers.fields.crossfield import Convergence, CrossField
+from solvers.fields.details import angles_without_details, curvatures_of
 from solvers.fields.placement import MOST_VALENCE, placed_singularities
 from solvers.fields.principal import principal_crosses
 from solvers.number_checks import real_number, whole_number
@@ -148,6 +149,8 @@ def natural_singularities(
     features: Features | None = None,
     most_valence: int = MOST_VALENCE,
     fewest: bool = False,
+    most: int | None = None,
+    scale: float | None = None,
 ) -> Generator[Progress, None, tuple[Singularity, ...]]:
     """Return the singularities of a smooth cross-field aligned with boundaries and features.
 
@@ -173,6 +176,11 @@ def natural_singularities(
     fewest : bool, optional
         Whether singularities of opposite indices are to cancel, pair by pair, those first whose
         cancelling costs the least energy, until none are left in any region between features.
+    most : int, optional
+        How many singularities at most. Opposite ones cancel wherever they are, and equal ones of
+        valence 5 and more are merged, those first by which the energy rises least.
+    scale : float, optional
+        Length below which details do not count: the surface's curvature is spread over it first.
 
     Returns
     -------
@@ -186,9 +194,10 @@ def natural_singularities(
     ------
     CrossviewError
         If the method or the alignment is unknown, the weight is negative or not finite, the most
-        valence is below 5, or the features are of another surface.
+        valence is below 5, the scale is not above 0, or the features are of another surface.
     SingularityError
-        If the surface has too few triangles for the singularities that are needed.
+        If the surface has too few triangles for the singularities that are needed, or they cannot
+        be as few as asked for.
 
     Notes
     -----
@@ -222,10 +231,15 @@ def natural_singularities(
         )
     weight = real_number("the weight of the curvature", weight, 0)
     seed = whole_number("the seed", seed, 0)
-    most = whole_number("the most valence", most_valence, 5)
+    most_valence = whole_number("the most valence", most_valence, 5)
+    if most is not None:
+        most = whole_number("the number of singularities", most, 0)
     pull = weight if alignment == "curvature" else 0.0
     along = no_features(surface) if features is None else features.require_on(surface)
-    problem = _Crosses(surface, along, pull)
+    angles = surface.triangulation.angles
+    if scale is not None:
+        angles = angles_without_details(along, real_number("the scale", scale, above=0))
+    problem = _Crosses(surface, along, pull, angles)
     z = yield from problem.smoothed(method, seed)
     group = [g for g in isometries(surface) if np.isin(g.edges[along.edges], along.edges).all()]
     if len(group) > 1:
@@ -237,22 +251,32 @@ def natural_singularities(
         index[corner] -= turning
     lacking = problem.lacking_quads(z)
     return placed_singularities(
-        surface, index, along, lacking, most_valence=most, fewest=bool(fewest)
+        surface,
+        index,
+        along,
+        lacking,
+        most_valence=most_valence,
+        fewest=bool(fewest),
+        most=most,
+        curvature=problem.curvature,
     )
 
 
 class _Crosses:
     """Complex cross values at edge midpoints, the energy of their differences, and the pull."""
 
-    def __init__(self, surface: TriSurface, features: Features, pull: float) -> None:
-        self.surface = surface
+    def __init__(
+        self, surface: TriSurface, features: Features, pull: float, angles: FloatArray
+    ) -> None:
+        self.surface, self.angles = surface, angles
         self.t = t = surface.triangulation
         self.edge = surface.face_edges.reshape(-1)
         n = len(t.edge_halfedges)
         # A halfedge that runs against its edge sees the cross turned by 180 degrees: the same.
         h = np.arange(len(t.twin))
         after = next_halfedge(h)
-        self.turn = np.exp(-4j * (t.directions[after] - t.directions[h]))
+        self.turn = np.exp(4j * angles.reshape(-1)[after])
+        self.curvature = curvatures_of(t, angles)
         # Midpoints of halfedges h and h + 1 are coupled by the corner between them.
         weight = 2.0 * t.cotangents.reshape(-1)[after]
         i, j = self.edge[h], self.edge[after]
@@ -389,7 +413,7 @@ class _Crosses:
         """
         turning = self._turning(z)
         # Halfedges h and h + 1 meet at the head of h; going around it runs from h + 1 to h.
-        around = self.t.curvatures - np.bincount(self.t.head, turning, self.t.n_vertices)
+        around = self.curvature - np.bincount(self.t.head, turning, self.t.n_vertices)
         inside = turning.reshape(-1, 3).sum(axis=1)
         return _quarter_turns(np.concatenate([around, inside]))
 
@@ -403,7 +427,7 @@ class _Crosses:
         # The corner at the head of a halfedge is that where the next one starts.
         sector = corner_sectors(t, ~self.free[self.edge])[next_halfedge(h)]
         count = int(sector.max()) + 1
-        angle = t.angles.reshape(-1)[next_halfedge(h)]
+        angle = self.angles.reshape(-1)[next_halfedge(h)]
         turned = np.bincount(sector, angle + self._turning(z), count).astype(np.float64)
         quads = _quarter_turns(turned)
         at = np.empty(count, dtype=np.int64)

@@ -25,6 +25,18 @@ def test_a_torus_needs_none(crossview: Crossview, tmp_path: Path) -> None:
     assert ran.out.startswith("0 singularities; wrote ")
 
 
+def test_so_many_at_most_or_one_line(crossview: Crossview, tmp_path: Path) -> None:
+    new = tmp_path / "natural.json"
+    ran = crossview("natural", "torus", "-o", new, "--most", "6", "--scale", "0.01")
+    assert (ran.status, ran.err) == (0, "")
+    assert 0 < len(json.loads(new.read_text())["singularities"]) <= 6
+    ran = crossview("natural", "disk", "-o", tmp_path / "none.json", "--most", "3")
+    assert ran.status == 2
+    assert ran.err.count("\n") == 1
+    assert "no fewer than 4 singularities can be left" in ran.err
+    assert not (tmp_path / "none.json").exists()
+
+
 def test_an_unknown_method_is_one_line(crossview: Crossview, tmp_path: Path) -> None:
     new = tmp_path / "natural.json"
     ran = crossview("natural", "disk", "-o", new, "--method", "best")

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from solvers.errors import CrossviewError
+from solvers.errors import CrossviewError, SingularityError
 from solvers.features.dihedral import sharp_edges
 from solvers.features.edges import Features
 from solvers.fields.isotropic import IsotropicSolver
@@ -17,6 +17,7 @@ from solvers.singularities.budget import default_corners, index_budget
 from solvers.surface.symmetries import isometries
 from solvers.surface.triangulation import wrap
 from solvers.surface.trisurface import TriSurface
+from tests.solvers.features.test_features import cube
 from tests.solvers.suite import SURFACES
 
 
@@ -181,6 +182,71 @@ def test_the_fewest_singularities_are_what_the_budget_asks_for(name: str) -> Non
     missing = index_budget(surface, (), default_corners(surface)).missing
     found = run(natural_singularities(surface, fewest=True))
     assert [s.valence for s in found] == [4 - int(np.sign(missing))] * abs(missing)
+
+
+def dented_disk(shift: float = 0.0) -> TriSurface:
+    """A disk with eight sharp dents that are small beside it."""
+    flat = BUILTIN["disk"](edge_length=0.04)
+    x, y, _ = flat.vertices.T
+    angle = shift + np.pi / 4 * np.arange(8)[:, None]
+    away = np.hypot(x - 0.5 * np.cos(angle), y - 0.5 * np.sin(angle)).min(axis=0)
+    return TriSurface(np.stack([x, y, 2 * np.maximum(0, 0.12 - away)], axis=1), flat.faces)
+
+
+def test_details_below_the_scale_hold_no_singularities() -> None:
+    surface = dented_disk()
+    assert len(run(natural_singularities(surface))) > 12
+    for scale in (0.4, 0.8):
+        found = run(natural_singularities(surface, scale=scale))
+        assert [s.valence for s in found] == [3] * 4
+
+
+def test_a_scale_below_the_triangles_changes_nothing() -> None:
+    surface = dented_disk()
+    assert run(natural_singularities(surface, scale=1e-6)) == run(natural_singularities(surface))
+
+
+def test_the_scale_is_a_length() -> None:
+    surface = dented_disk()
+    larger = TriSurface(1000 * surface.vertices, surface.faces)
+    found, other = (
+        run(natural_singularities(s, scale=scale)) for s, scale in ((surface, 0.1), (larger, 100.0))
+    )
+    assert [s.valence for s in found] == [s.valence for s in other]
+    assert np.allclose(
+        1000 * surface.positions([s.point for s in found]),
+        larger.positions([s.point for s in other]),
+    )
+
+
+def test_corners_between_features_keep_their_quads_at_any_scale() -> None:
+    surface = cube()
+    features = Features(surface, sharp_edges(surface, 40))
+    found = run(natural_singularities(surface, features=features, scale=10.0))
+    assert sorted(s.valence for s in found) == [3] * 8
+    corners = surface.vertices[features.corners]
+    places = surface.positions([s.point for s in found])
+    assert np.linalg.norm(places[:, None] - corners, axis=2).min(axis=1).max() < 1e-9
+
+
+@pytest.mark.parametrize("most", [40, 13, 10])
+def test_no_more_singularities_than_asked_for(most: int) -> None:
+    surface = dented_disk()
+    found = run(natural_singularities(surface, most=most))
+    assert len(found) <= most
+    assert index_budget(surface, found, default_corners(surface)).satisfied
+    assert all(3 <= s.valence <= 8 for s in found)
+
+
+def test_fewer_than_the_budget_needs_are_refused() -> None:
+    with pytest.raises(SingularityError, match="no fewer than 8"):
+        run(natural_singularities(SURFACES["sphere"](), most=7))
+
+
+@pytest.mark.parametrize("scale", [0.0, -1.0, np.nan, np.inf])
+def test_a_scale_that_is_no_length_is_refused(scale: float) -> None:
+    with pytest.raises(CrossviewError, match="scale"):
+        run(natural_singularities(SURFACES["disk"](), scale=scale))
 
 
 def test_every_sector_between_features_has_a_quad() -> None:
