@@ -17,6 +17,7 @@ from crossview.io import SUFFIXES
 from crossview.session.opening import Opening
 from crossview.session.session import Session
 from crossview.session.state import SessionState
+from solvers.errors import CrossviewError, counted
 
 CASES = {".json": "Case"}
 """Words for the suffix of case files."""
@@ -67,6 +68,7 @@ class Files:
         self._source = ""
         self._recovery = Recovery()
         self._restored: Unsaved | None = None
+        self._inverted_too = False
         session.may_leave = self.may_leave
 
     @property
@@ -177,6 +179,10 @@ class Files:
         if figure is not None:
             self._write(figure.write, path)
 
+    def allow_inverted(self, allowed: bool) -> None:
+        """Whether quads are written although some are inverted."""
+        self._inverted_too = allowed
+
     def ask_save_quads(self) -> None:
         """Ask where to write the quads, and write them."""
         path = self._ask("Save the quads", ".obj", MESHES)
@@ -188,7 +194,9 @@ class Files:
         state = self._session.state
         if state.made.quads is not None and state.document is not None:
             kept = state.document.to_case().files
-            self._write(partial(write_mesh, state.made.quads, kept=kept), path)
+            write = partial(write_mesh, state.made.quads, kept=kept)
+            inverted = 0 if state.made.certificate is None else state.made.certificate.inverted
+            self._write(_refuse(inverted) if inverted and not self._inverted_too else write, path)
 
     def _keep_copy(self) -> None:
         state = self._session.state
@@ -212,3 +220,16 @@ class Files:
 
     def _folder(self) -> str:
         return str(Path(self._source).parent) if Path(self._source).is_file() else str(Path.home())
+
+
+def _refuse(inverted: int) -> Callable[[Path], object]:
+    """What is done instead of writing quads of which some are inverted."""
+
+    def refuse(path: Path) -> None:
+        raise CrossviewError(
+            f"not saved: {counted(inverted, 'quad')} inverted",
+            path.name,
+            "make another number of quads, or tick Allow inverted in the Quads panel",
+        )
+
+    return refuse

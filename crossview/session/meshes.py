@@ -7,6 +7,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from crossview.certificate import Certificate
+from crossview.workflow.certification import certified
 from crossview.workflow.layout import SOON, layout, misaligned_boundaries, separatrices
 from crossview.workflow.pipeline import Solution
 from crossview.workflow.quads import MeshOptions, quads
@@ -39,6 +41,8 @@ class Meshes:
     quads : QuadMesh or None
     options : MeshOptions
         What the quads were made with.
+    certificate : Certificate or None
+        Of the quads.
     """
 
     of: CrossField | None = None
@@ -49,6 +53,7 @@ class Meshes:
     trouble: LayoutError | None = None
     quads: QuadMesh | None = None
     options: MeshOptions = field(default_factory=MeshOptions)
+    certificate: Certificate | None = None
 
 
 NO_MESHES = Meshes()
@@ -91,7 +96,8 @@ def make_quads(solution: Solution, made: Meshes, options: MeshOptions) -> Making
     filling = quads(laid_out.layout, options)
     filled = yield from between(filling, share, 1.0)
     _ = filled.scaled_jacobian, filled.irregular, filled.corners, filled.on_boundary
-    return replace(laid_out, quads=filled, options=options)
+    certificate = certified(solution, filled)
+    return replace(laid_out, quads=filled, options=options, certificate=certificate)
 
 
 def _traced(solution: Solution, made: Meshes) -> Meshes:

@@ -1,5 +1,6 @@
 """From a case to quads in a file, and what happens where there can be none."""
 
+import json
 from dataclasses import replace
 from pathlib import Path
 
@@ -269,6 +270,36 @@ def test_the_layout_layer_says_why_each_time_it_is_shown(hand: Hand, isotropic_p
     hand.window.session.looks.toggle_layer("layout")
     hand.wait()
     assert hand.state.message is not None
+
+
+def test_inverted_quads_are_saved_only_when_that_is_allowed(hand: Hand, tmp_path: Path) -> None:
+    # one quad alone at the inner corner of an L, of 270 degrees: no mesh has it upright
+    outer = [(-1, -1), (1, -1), (1, 0), (0, 1), (-1, 1)]
+    case = {
+        "surface": {"builtin": "l_shape"},
+        "singularities": [
+            {"position": place, "valence": 5} for place in ([-0.5, 0.3, 0], [0.3, -0.5, 0])
+        ],
+        "corners": [{"position": [x, y, 0], "index": 1} for x, y in [*outer, (0, 0)]],
+        "method": "anisotropic",
+    }
+    (tmp_path / "l.json").write_text(json.dumps(case))
+    hand.open(tmp_path / "l.json")
+    panel = hand.window.quads_panel
+    panel.count_box.setValue(200)
+    hand.trigger("mesh")
+    hand.wait(lambda: hand.state.made.quads is not None)
+    assert panel.said.text().startswith("1 quad inverted")
+    hand.window.files.save_quads(tmp_path / "quads.obj")
+    assert "not saved: 1 quad inverted" in hand.said
+    assert not (tmp_path / "quads.obj").exists()
+    assert panel.allow_inverted.isVisibleTo(panel)
+    panel.allow_inverted.click()
+    hand.window.files.save_quads(tmp_path / "quads.obj")
+    assert hand.state.message is None
+    assert (tmp_path / "quads.obj").exists()
+    hand.open("disk-4")
+    assert not panel.allow_inverted.isVisibleTo(panel)
 
 
 def test_quads_wished_for_one_surface_are_not_made_of_the_next(hand: Hand) -> None:

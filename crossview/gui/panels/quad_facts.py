@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+from crossview.certificate import Certificate
 from crossview.view.texts import MINUS, count, grouped
 from crossview.workflow.pipeline import Solution
 from solvers.layouts import QuadLayout
@@ -34,18 +35,20 @@ class QuadFacts:
     rows: Mapping[str, str]
 
 
-def quad_facts(layout: QuadLayout, mesh: QuadMesh, solution: Solution) -> QuadFacts:
-    """Compare a quad mesh with what was imposed."""
+def quad_facts(
+    layout: QuadLayout, mesh: QuadMesh, solution: Solution, certificate: Certificate
+) -> QuadFacts:
+    """Compare a quad mesh with what was imposed, and say what its certificate finds."""
     wanted = Counter(s.valence for s in solution.singularities if s.valence != 4)
     corners = Counter(2 - k for k in solution.problem.chosen_corners.values() if k != 0)
     quality = mesh.scaled_jacobian
     worst = float(quality.min())
-    folded = int((quality <= 0.0).sum())
+    folded = certificate.inverted
     euler = solution.surface.euler_characteristic
     as_imposed = mesh.irregular == dict(wanted) and mesh.corners == dict(corners)
     good = as_imposed and not folded and mesh.euler_characteristic == euler
     if folded:
-        verdict = f"{count(folded, 'quad')} folded over; try more quads or smoothing."
+        verdict = f"{count(folded, 'quad')} inverted; try another number of quads, or smoothing."
     elif not as_imposed:
         verdict = "The irregular vertices are not those imposed."
     else:

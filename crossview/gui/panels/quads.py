@@ -84,6 +84,8 @@ class QuadsPanel(QScrollArea):
         self.button.clicked.connect(make.trigger)
         self.button.setEnabled(make.isEnabled())
         make.enabledChanged.connect(self.button.setEnabled)
+        self.allow_inverted = QCheckBox("Allow inverted")
+        self.allow_inverted.setToolTip("Save the quads although some are inverted")
         self.save_button = QToolButton()
         self.save_button.setDefaultAction(save)
         self._dot, self.said = QLabel(), QLabel(NOTHING)
@@ -127,13 +129,16 @@ class QuadsPanel(QScrollArea):
         self.histogram.setVisible(quads is not None)
         self._dot.setVisible(quads is not None)
         self.save_button.setVisible(quads is not None)
-        if quads is None or made.layout is None or state.solution is None:
+        certificate = made.certificate
+        spoiled = quads is not None and certificate is not None and certificate.inverted > 0
+        self.allow_inverted.setVisible(spoiled)
+        if quads is None or made.layout is None or state.solution is None or certificate is None:
             surface = None if state.document is None else state.document.surface
             gone = surface is not None and surface is self._filled
             self.said.setText(STALE if gone else NOTHING)
             return
         self._filled = state.solution.problem.surface
-        facts = quad_facts(made.layout, quads, state.solution)
+        facts = quad_facts(made.layout, quads, state.solution, certificate)
         self._dot.setPixmap(dot_icon(GOOD if facts.good else BAD).pixmap(DOT))
         self.said.setText(facts.verdict)
         for title, text in facts.rows.items():
@@ -171,6 +176,7 @@ class QuadsPanel(QScrollArea):
             form.addRow(_faint(title), self.facts[title])
         layout.addWidget(self._form)
         layout.addWidget(self.histogram)
+        layout.addWidget(self.allow_inverted)
         layout.addWidget(self.save_button)
         layout.addStretch(1)
 
