@@ -18,10 +18,15 @@ from solvers.layouts.motorcycles import Stops, left_of, stops
 from solvers.layouts.nodes import Node, node_at
 from solvers.layouts.rims import with_rims
 from solvers.layouts.separatrices import Separatrices, as_curves
-from solvers.layouts.tracing import BORDER
+from solvers.layouts.tracing import BORDER, LENGTH
 
 LONGEST = 4.0
 """Length at which a trace counts as winding on and on, in diameters of the map. Chosen."""
+
+AT_FIRST = 5e5
+"""Crossings, about twice as many as are expected, up to which traces are followed at first: many
+are given up before they wind. Chosen: some hundred bytes each.
+"""
 
 LENGTHS = LONGEST * 0.5 ** np.arange(8)
 """The same, and to what it is reduced where the layout would become too fine. Chosen."""
@@ -56,8 +61,21 @@ class Drawing:
         self._nodes = nodes = [*singular, *featured, *seeds]
         self._longest = longest
         chart = map_.chart
-        self.traces = meeting_traces(chart, nodes, longest * chart.diameter)
-        self.crossings = crossings(chart, self.traces.chords)
+        far = longest * chart.diameter
+        reach = np.sqrt(AT_FIRST * chart.area) / max(sum(len(n.slots) for n in nodes), 1)
+        while True:
+            self.traces = meeting_traces(chart, nodes, min(reach, far))
+            self.crossings = crossings(chart, self.traces.chords)
+            if reach >= far or longest < LONGEST or not self._dangling:
+                break
+            reach *= 2
+
+    @property
+    def _dangling(self) -> bool:
+        """Whether a trace was given up before it met another."""
+        stopped = stops(self.traces, self.crossings)
+        given_up = stopped.kept & (self.traces.ends == LENGTH)
+        return bool((given_up & ~stopped.cut).any())
 
     @cached_property
     def _stops(self) -> Stops:

@@ -8,6 +8,7 @@ from solvers.fields.aligned import IntegratedField, aligned_field
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.fields.prepared import prepare
 from solvers.fields.verdict import Verdict
+from solvers.layouts import drawing
 from solvers.layouts.arrangement import arrange
 from solvers.layouts.connections import beside, ending
 from solvers.layouts.crossings import crossings
@@ -17,6 +18,7 @@ from solvers.layouts.joined_map import JoinedMap
 from solvers.layouts.layout import QuadLayout, quad_layout
 from solvers.layouts.motorcycles import stops
 from solvers.layouts.nodes import singular_nodes, starts_at
+from solvers.layouts.separatrices import T_JUNCTION
 from solvers.layouts.tracing import NODE, Traces, trace
 from solvers.maps.seamless import SeamlessFit, seamless_map
 from solvers.primitives import BUILTIN
@@ -214,6 +216,18 @@ def test_however_early_curves_are_cut_rectangles_are_left(longest: float) -> Non
     tmesh = arrange(made.surface, nodes, critical, traces, crossed, stopped).tmesh
     assert tmesh.n_nodes - tmesh.n_arcs + tmesh.n_rectangles == 0
     assert tmesh.area == pytest.approx(chart.area, rel=1e-8)
+
+
+def test_traces_are_followed_until_each_meets_another(monkeypatch: pytest.MonkeyPatch) -> None:
+    """However short they are at first, none is left with a loose end."""
+    made = layout_of("winding sphere")
+    monkeypatch.setattr(drawing, "AT_FIRST", 1.0)
+    again = run(quad_layout(made.integrated))
+    assert set(again.separatrices.ends.tolist()) == {T_JUNCTION}
+    assert len(again.t_junctions) == 24
+    tmesh = again.tmesh
+    assert tmesh.n_nodes - tmesh.n_arcs + tmesh.n_rectangles == 2
+    assert tmesh.area == pytest.approx(again.arrangement.curves.chart.area, rel=1e-8)
 
 
 def test_triangles_turned_over_are_named_with_the_singularities_near_them() -> None:
