@@ -68,6 +68,7 @@ def planar(
         raise SurfaceError(f"holes must be a list of polygons, not {holes!r}")
     rings = [_ring(outer, 1.0), *(_ring(hole, -1.0) for hole in holes)]
     affordable(_area(rings[0]) / h / h)
+    affordable(sum(float(_sides(ring)[1].sum()) for ring in rings) / h)
     loops = [_divide(ring, h) for ring in rings]
     points, faces = fill(loops, _lattice(loops, h))
     return TriSurface(np.column_stack([points, np.zeros(len(points))]), faces)
@@ -118,9 +119,15 @@ def _area(ring: FloatArray) -> float:
     return 0.5 * float((ring[:, 0] * following[:, 1] - ring[:, 1] * following[:, 0]).sum())
 
 
-def _divide(ring: FloatArray, h: float) -> FloatArray:
+def _sides(ring: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the vectors (k, 2) and lengths (k,) of a polygon's sides."""
     side = np.roll(ring, -1, axis=0) - ring
-    parts = np.maximum(np.rint(np.linalg.norm(side, axis=1) / h).astype(int), 1)
+    return side, np.linalg.norm(side, axis=1)
+
+
+def _divide(ring: FloatArray, h: float) -> FloatArray:
+    side, length = _sides(ring)
+    parts = np.maximum(np.rint(length / h).astype(int), 1)
     step = np.arange(parts.sum()) - np.repeat(np.cumsum(parts) - parts, parts)
     share = (step / np.repeat(parts, parts))[:, None]
     return np.asarray(np.repeat(ring, parts, axis=0) + share * np.repeat(side, parts, axis=0))

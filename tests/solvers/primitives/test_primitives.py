@@ -217,6 +217,7 @@ def test_planar_takes_polygons_either_way_round_and_at_any_angle() -> None:
         ([[0, 0], [1, 0], [1, 1], [0, 1]], [[[0.5, 0.5], [3, 0.5], [0.5, 0.6]]], 0.1),
         ([[0, 0], [1, 0], [1, 1], [0, 1]], [], 0),
         ([[0, 0], [1, 0], [1, 1], [0, 1]], [], 1e-6),
+        ([[0, 0], [1, 0], [1, 1], [0, 1]], [[[0.5, 0.5], [0.6, 0.5], [0.6, -1e9]]], 0.1),
     ],
     ids=[
         "crossing itself",
@@ -229,6 +230,7 @@ def test_planar_takes_polygons_either_way_round_and_at_any_angle() -> None:
         "hole across the side",
         "no edge length",
         "too fine",
+        "too fine along a hole",
     ],
 )
 def test_bad_polygons_are_refused(outer: Any, holes: Any, edge_length: float) -> None:
