@@ -20,16 +20,15 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from crossview.cases.model import Case
+from crossview.certificate import Faces, Reference, certify
+from crossview.workflow.certification import faces_of, reference
 from crossview.workflow.pipeline import Pipeline
 from crossview.workflow.problem import Problem
 from crossview.workflow.quads import MeshOptions, quads_of
 from solvers.primitives import BUILTIN
 from solvers.progress import run
-from solvers.quads.corners import TangentPlanes, scaled_jacobian
-from solvers.quads.projection import Projection
 from solvers.singularities.budget import Singularity
 from solvers.singularities.farthest import far_points
 from solvers.surface.trisurface import TriSurface
@@ -44,44 +43,21 @@ MODULES = {
     "QuadriFlow": "pyQuadriFlow",
     "gmsh quasi-structured": "gmsh",
 }
-HEADER = """| surface | mesher | quads | others | irregular | boundary off | scaled Jacobian, min \
-| mean | inverted | seconds |
-|---|---|---:|---:|---:|---:|---:|---:|---:|---:|"""
+HEADER = """| surface | mesher | quads | others | irregular | surface off | boundary off | area \
+| scaled Jacobian, min | mean | inverted | seconds |
+|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|"""
+CELLS = HEADER.partition("\n")[0].count("|") - 3
+"""Cells of a row beside surface and mesher."""
+
 CUBE = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
 
 
 @dataclass(frozen=True)
 class Made:
-    """What a mesher made of a surface: vertices (n, 3), quads (q, 4), triangles (t, 3)."""
+    """What a mesher made of a surface, and in how long."""
 
-    vertices: np.ndarray
-    quads: np.ndarray
-    triangles: np.ndarray
+    faces: Faces
     seconds: float
-
-    @property
-    def edges(self) -> np.ndarray:
-        """(e, 2) sides of all faces, twice if between two."""
-        sides = [
-            np.stack([faces, np.roll(faces, -1, axis=1)], axis=2).reshape(-1, 2)
-            for faces in (self.quads, self.triangles)
-        ]
-        return np.sort(np.concatenate(sides), axis=1)
-
-    @property
-    def rim(self) -> np.ndarray:
-        """(k, 2) edges with one face."""
-        edges, count = np.unique(self.edges, axis=0, return_counts=True)
-        return np.asarray(edges[count == 1])
-
-    @property
-    def irregular(self) -> int:
-        """Inner vertices where not four edges meet."""
-        degree = np.bincount(
-            np.unique(self.edges, axis=0).reshape(-1), minlength=len(self.vertices)
-        )
-        inner = np.setdiff1d(np.arange(len(self.vertices)), self.rim)
-        return int((degree[inner] != 4).sum())
 
 
 def problems(folder: Path | None) -> Iterator[tuple[str, Problem]]:
@@ -107,7 +83,7 @@ def ours(problem: Problem) -> Made:
     solution = run(Pipeline().solve(fresh))
     _, _, mesh = run(quads_of(solution, MeshOptions(target_quads=QUADS)))
     seconds = time.perf_counter() - start
-    return Made(mesh.vertices, mesh.quads, np.empty((0, 3), dtype=int), seconds)
+    return Made(faces_of(mesh), seconds)
 
 
 def theirs(peer: str, surface: TriSurface) -> Made | str:
@@ -126,61 +102,54 @@ def theirs(peer: str, surface: TriSurface) -> Made | str:
             said = ran.stderr.strip().splitlines()
             return f"failed: {said[-1]}" if said else f"crashed ({ran.returncode})"
         with np.load(made) as found:
-            return Made(
-                found["vertices"], found["quads"], found["triangles"], float(found["seconds"])
-            )
+            blocks = [found["quads"], found["triangles"]]
+            sizes = np.concatenate([np.full(len(b), b.shape[1], dtype=np.int64) for b in blocks])
+            corners = np.concatenate([b.reshape(-1).astype(np.int64) for b in blocks])
+            return Made(Faces(found["vertices"], sizes, corners), float(found["seconds"]))
 
 
-def row(surface: TriSurface, made: Made) -> list[str]:
-    """The cells of the table about a mesh."""
-    quality = scaled_jacobian(made.vertices[made.quads], _normals(surface, made))
+def row(against: Reference, made: Made) -> list[str]:
+    """The cells of the table about a mesh, as the certificate measures it."""
+    found = certify(made.faces, against).measures
+    counts, corners, edge = found["counts"], found["corners"], found["mean_edge"]
+    distances = found["distances"]
     return [
-        f"{len(made.quads)}",
-        f"{len(made.triangles)}",
-        f"{made.irregular}",
-        _boundary(surface, made),
-        f"{quality.min():.2f}",
-        f"{quality.mean():.3f}",
-        f"{int((quality <= 0).sum())}",
+        f"{counts['quads']}",
+        f"{counts['non_quads']}",
+        f"{sum(found['irregular']['found'].values())}",
+        _gap(distances, "faces_to_surface", "surface_to_faces", edge),
+        _gap(distances, "boundary_to_surface", "surface_to_boundary", edge),
+        f"{distances['area_ratio']:.4f}",
+        f"{corners['min_scaled_jacobian']:.2f}",
+        f"{corners['mean_scaled_jacobian']:.3f}",
+        _inverted(corners),
         f"{made.seconds:.2f}",
     ]
 
 
-def _normals(surface: TriSurface, made: Made) -> np.ndarray:
-    """The surface's normals (q, 4, 3) at the corners of quads."""
-    faces, weights = Projection(surface).nearest(made.vertices)
-    return TangentPlanes(surface).corner_normals(faces, weights, made.vertices, made.quads)
+def _inverted(corners: dict[str, int]) -> str:
+    """How many faces are inverted, and at how many vertices of valence 2 that is excused."""
+    excused = corners["excused_at_valence_2"]
+    return f"{corners['inverted_faces']}" + (f", {excused} at valence 2" if excused else "")
 
 
-def _boundary(surface: TriSurface, made: Made) -> str:
-    """How far the boundaries of surface and mesh are apart at most, in edges of a quad."""
-    loops = surface.boundary_loops
-    if not loops and not len(made.rim):
+def _gap(distances: dict[str, float | None], one: str, other: str, edge: float) -> str:
+    """The larger of two distances in edges; empty where there is nothing to measure."""
+    if one not in distances:
         return ""
-    if not loops or not len(made.rim):
-        return "lost" if loops else "torn open"
-    sides = np.concatenate([np.stack([loop, np.roll(loop, -1)], axis=1) for loop in loops])
-    there = _sampled(surface.vertices[sides])
-    here = _sampled(made.vertices[made.rim])
-    gap = max(cKDTree(a).query(b)[0].max() for a, b in ((there, here), (here, there)))
-    return f"{gap / np.sqrt(surface.area / QUADS):.2f}"
-
-
-def _sampled(segments: np.ndarray) -> np.ndarray:
-    """Places (k, 3) along segments (s, 2, 3)."""
-    t = np.linspace(0, 1, 21)[:, None, None]
-    return (segments[:, 0] * (1 - t) + segments[:, 1] * t).reshape(-1, 3)
+    here, there = distances[one], distances[other]
+    return "lost" if here is None or there is None else f"{max(here, there) / edge:.2f}"
 
 
 def rows(folder: Path | None) -> Iterator[str]:
     """The rows of the table as they are made."""
     for name, problem in problems(folder):
-        surface = problem.surface
+        surface, against = problem.surface, reference([problem], False)
         label = f"{name}, {surface.n_faces} triangles"
-        yield _line(label, "crossview", row(surface, ours(problem)))
+        yield _line(label, "crossview", row(against, ours(problem)))
         for peer in MODULES:
             made = theirs(peer, surface)
-            cells = [made, *[""] * 7] if isinstance(made, str) else row(surface, made)
+            cells = [made, *[""] * (CELLS - 1)] if isinstance(made, str) else row(against, made)
             yield _line(label, peer, cells)
 
 
