@@ -17,32 +17,37 @@ The numerics below them are `solvers`; Qt and VTK are loaded when they are wante
 from __future__ import annotations
 
 from importlib.metadata import version
+from typing import TYPE_CHECKING
 
-from crossview.cases.model import Case
-from crossview.certificate import Certificate
-from crossview.library import (
-    batch,
-    check,
-    complete,
-    improve,
-    layout,
-    make_valid,
-    natural,
-    quads,
-    read,
-    read_surface,
-    render,
-    report,
-    solve,
-    write_case,
-    write_mesh,
-    write_solution,
-)
-from crossview.workflow.problem import Problem
-from crossview.workflow.solution import Solution
-from solvers import CrossviewError, Singularity, SurfacePoint, TriSurface, primitives
-from solvers.layouts import QuadLayout
-from solvers.quads import QuadMesh
+from solvers.lazy import when_wanted
+
+if TYPE_CHECKING:
+    from crossview.cases.model import Case
+    from crossview.certificate import Certificate
+    from crossview.library import (
+        batch,
+        check,
+        complete,
+        improve,
+        layout,
+        make_valid,
+        natural,
+        quads,
+        read,
+        read_surface,
+        render,
+        report,
+        solve,
+        write_case,
+        write_mesh,
+        write_solution,
+    )
+    from crossview.workflow.problem import Problem
+    from crossview.workflow.solution import Solution
+    from solvers import CrossviewError, Singularity, SurfacePoint, TriSurface, primitives
+    from solvers.layouts import QuadLayout
+    from solvers.quads import QuadMesh
+
 
 __version__ = version("crossview")
 
@@ -75,3 +80,45 @@ __all__ = [
     "write_mesh",
     "write_solution",
 ]
+
+__getattr__ = when_wanted(
+    __name__,
+    {
+        "crossview.cases.model": ("Case",),
+        "crossview.certificate": ("Certificate",),
+        "crossview.library": (
+            "batch",
+            "check",
+            "complete",
+            "improve",
+            "layout",
+            "make_valid",
+            "natural",
+            "quads",
+            "read",
+            "read_surface",
+            "render",
+            "report",
+            "solve",
+            "write_case",
+            "write_mesh",
+            "write_solution",
+        ),
+        "crossview.workflow.problem": ("Problem",),
+        "crossview.workflow.solution": ("Solution",),
+        "solvers": (
+            "CrossviewError",
+            "Singularity",
+            "SurfacePoint",
+            "TriSurface",
+            "primitives",
+        ),
+        "solvers.layouts": ("QuadLayout",),
+        "solvers.quads": ("QuadMesh",),
+    },
+)
+
+
+def __dir__() -> list[str]:
+    """Return the names that there are, also those not wanted yet."""
+    return sorted({*globals(), *__all__})

@@ -18,12 +18,17 @@ Long computations are generators that report their progress and return a result:
 
 from __future__ import annotations
 
-from solvers.errors import CrossviewError, SingularityError, SolveError, SurfaceError
-from solvers.fields import CrossField, IsotropicSolver
-from solvers.progress import Progress, run
-from solvers.remedies import MakeValid, Remedy, RepairSurface, TakeLargest, UseMethod
-from solvers.singularities import Singularity
-from solvers.surface import SurfacePoint, TriSurface
+from typing import TYPE_CHECKING
+
+from solvers.lazy import when_wanted
+
+if TYPE_CHECKING:
+    from solvers.errors import CrossviewError, SingularityError, SolveError, SurfaceError
+    from solvers.fields import CrossField, IsotropicSolver
+    from solvers.progress import Progress, run
+    from solvers.remedies import MakeValid, Remedy, RepairSurface, TakeLargest, UseMethod
+    from solvers.singularities import Singularity
+    from solvers.surface import SurfacePoint, TriSurface
 
 __all__ = [
     "CrossField",
@@ -43,3 +48,40 @@ __all__ = [
     "UseMethod",
     "run",
 ]
+
+__getattr__ = when_wanted(
+    __name__,
+    {
+        "solvers.errors": (
+            "CrossviewError",
+            "SingularityError",
+            "SolveError",
+            "SurfaceError",
+        ),
+        "solvers.fields": (
+            "CrossField",
+            "IsotropicSolver",
+        ),
+        "solvers.progress": (
+            "Progress",
+            "run",
+        ),
+        "solvers.remedies": (
+            "MakeValid",
+            "Remedy",
+            "RepairSurface",
+            "TakeLargest",
+            "UseMethod",
+        ),
+        "solvers.singularities": ("Singularity",),
+        "solvers.surface": (
+            "SurfacePoint",
+            "TriSurface",
+        ),
+    },
+)
+
+
+def __dir__() -> list[str]:
+    """Return the names that there are, also those not wanted yet."""
+    return sorted({*globals(), *__all__})

@@ -5,12 +5,13 @@ from __future__ import annotations
 import copyreg
 import json
 from collections.abc import Callable, Iterable
-from typing import Any
-
-import numpy as np
-import numpy.typing as npt
+from typing import TYPE_CHECKING, Any
 
 from solvers.remedies import Remedy, in_words
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
 
 
 class CrossviewError(Exception):
@@ -123,6 +124,8 @@ class SurfaceError(CrossviewError):
         remedies: Iterable[Remedy] = (),
     ) -> None:
         super().__init__(what, where, advice, remedies=remedies)
+        import numpy as np  # a mistyped command needs none
+
         self.elements: npt.NDArray[np.int64] = np.asarray(elements, dtype=np.int64)
         self.kind = kind
 
@@ -227,6 +230,8 @@ def printable(text: str) -> str:
 
 def listed(elements: npt.NDArray[np.int64], limit: int = 5) -> str:
     """Return the first few of `elements` as text."""
+    import numpy as np
+
     shown = ["-".join(str(v) for v in np.atleast_1d(element)) for element in elements[:limit]]
     more = f" and {len(elements) - limit} more" if len(elements) > limit else ""
     return ", ".join(shown) + more

@@ -2,25 +2,15 @@
 
 from __future__ import annotations
 
+import ast
 import os
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 
 from cyclopts import App, CycloptsError
 
 from crossview import __version__
-from crossview.cases.json_values import nearest
-from crossview.cli.batch import batch
-from crossview.cli.check import check
-from crossview.cli.complete import complete
-from crossview.cli.hints import with_command
-from crossview.cli.improve import improve
-from crossview.cli.info import info
-from crossview.cli.make_valid import make_valid
-from crossview.cli.natural import natural
-from crossview.cli.render import gallery, render
-from crossview.cli.schema import schema
-from crossview.cli.solve import solve
 from crossview.cli.terminal import complain
 from crossview.cli.window import window
 from solvers.errors import CrossviewError
@@ -34,20 +24,30 @@ app = App(
     suppress_keyboard_interrupt=False,
 )
 app.default(window)
-for command in (
-    info,
-    solve,
-    check,
-    render,
-    gallery,
-    natural,
-    complete,
-    make_valid,
-    improve,
-    batch,
+
+
+def _told(module: str, name: str) -> str:
+    """What a command says of itself before its options, without an import of what it needs."""
+    source = Path(__file__).with_name(f"{module}.py").read_text(encoding="utf-8")
+    functions = (node for node in ast.parse(source).body if isinstance(node, ast.FunctionDef))
+    text = next(ast.get_docstring(node) or "" for node in functions if node.name == name)
+    return text.partition("\n\nParameters\n")[0]
+
+
+for module, name in (
+    ("info", "info"),
+    ("solve", "solve"),
+    ("check", "check"),
+    ("render", "render"),
+    ("render", "gallery"),
+    ("natural", "natural"),
+    ("complete", "complete"),
+    ("make_valid", "make_valid"),
+    ("improve", "improve"),
+    ("batch", "batch"),
+    ("schema", "schema"),
 ):
-    app.command(command)
-app.command(schema)
+    app.command(f"crossview.cli.{module}:{name}", help=_told(module, name))
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -84,12 +84,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _refuse(error: CrossviewError) -> int:
+    from crossview.cli.hints import with_command  # it knows of remedies of all rooms
+
     complain(f"crossview: error: {error.line(with_command)}")
     return 2
 
 
 def _usage_error(tokens: list[str], error: CycloptsError) -> CrossviewError:
     """What is wrong with the command line."""
+    from crossview.cases.json_values import nearest
+
     what = " ".join(str(error).split()).rstrip(".")
     known = [name for name in app if not name.startswith("-")]
     command = tokens[0]

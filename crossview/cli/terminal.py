@@ -8,8 +8,6 @@ from collections.abc import Generator
 from typing import Any, TypeVar
 
 from rich.console import Console
-from rich.progress import BarColumn, TextColumn, TimeElapsedColumn
-from rich.progress import Progress as Bar
 
 from solvers.errors import printable
 from solvers.progress import Progress, run
@@ -55,6 +53,9 @@ def watch(computation: Generator[Progress, None, T], quiet: bool = False) -> T:
     console = Console(stderr=True)
     if quiet or not console.is_terminal:
         return run(computation)
+    from rich.progress import BarColumn, TextColumn, TimeElapsedColumn
+    from rich.progress import Progress as Bar
+
     bar = Bar(
         TextColumn("{task.description}"),
         BarColumn(),

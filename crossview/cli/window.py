@@ -7,7 +7,6 @@ import os
 import sys
 from importlib.util import find_spec
 
-from crossview.cases.gallery import find_case
 from solvers.errors import CrossviewError
 
 
@@ -22,6 +21,8 @@ def window(file: str | None = None, /) -> int:
         A surface, a case, or the name of a gallery case.
     """
     if file is not None:
+        from crossview.cases.gallery import find_case
+
         find_case(file)  # what is not there is told here, not by an empty window
     require_qt(file)
     require_display(file)
