@@ -30,7 +30,10 @@ TOLERANCE = 0.02
 """Relative distance from a wanted number of quads up to which counts are taken. Chosen."""
 
 MISSED = 0.05
-"""Relative distance from a wanted number of quads that is told. Chosen."""
+"""Relative distance from a wanted number of quads that is told.
+
+Chosen: nearer ones are no other mesh, and looking for them takes seconds.
+"""
 
 MOST_TRIALS = 4
 """Edge lengths at most for which whole counts are looked for. Chosen."""
@@ -187,13 +190,14 @@ def quantize_to(
     n_quads = whole_number("the number of quads", n_quads, 1, MOST_QUADS)
     separation = Separation(tmesh, conditions)
     best = _by_length(tmesh, n_quads, separation)
-    if _missed(best, n_quads) > TOLERANCE:
+    if _missed(best, n_quads) > MISSED:
         best = _by_total(best, tmesh, n_quads, separation)
     fewest = None
-    if best.n_quads > (1 + TOLERANCE) * n_quads:
-        least = _fewest(tmesh, separation)
-        best = min(best, least, key=lambda found: _missed(found, n_quads))
-        fewest = least.n_quads
+    if best.n_quads > (1 + MISSED) * n_quads:
+        starts = (best, _longest(tmesh, separation))
+        tried = [best, *(_descended(start, tmesh, separation) for start in starts)]
+        best = min(tried, key=lambda found: _missed(found, n_quads))
+        fewest = min(found.n_quads for found in tried)
     return replace(best, n_wanted=n_quads, n_fewest=fewest)
 
 
@@ -235,7 +239,8 @@ def fewest_quads(tmesh: TMesh, *, conditions: Sequence[Condition] = ()) -> Quant
     >>> fewest_quads(tmesh).n_quads
     1
     """
-    return _fewest(tmesh, Separation(tmesh, conditions))
+    separation = Separation(tmesh, conditions)
+    return _descended(_longest(tmesh, separation), tmesh, separation)
 
 
 def number_of_quads(tmesh: TMesh, counts: IntArray) -> int:
@@ -246,19 +251,20 @@ def number_of_quads(tmesh: TMesh, counts: IntArray) -> int:
 
 def _by_length(tmesh: TMesh, n_quads: int, separation: Separation) -> Quantization:
     """Return the best of counts near to several edge lengths."""
-    aim, tried = float(n_quads), []
+    aim, length, tried = float(n_quads), float(np.sqrt(tmesh.area / n_quads)), []
     for _ in range(MOST_TRIALS):
-        length = _length_for(tmesh, aim, separation)
+        length = _length_for(tmesh, aim, length, separation)
         tried.append(_nearest(tmesh, length, separation))
         if _missed(tried[-1], n_quads) <= TOLERANCE:
             break
         aim *= n_quads / tried[-1].n_quads
+        length *= float(np.sqrt(tried[-1].n_quads / n_quads))
     return min(tried, key=lambda found: _missed(found, n_quads))
 
 
-def _length_for(tmesh: TMesh, n_quads: float, separation: Separation) -> float:
+def _length_for(tmesh: TMesh, n_quads: float, start: float, separation: Separation) -> float:
     """Return the edge length near to which fractional counts make a number of quads."""
-    length, low, high = float(np.sqrt(tmesh.area / n_quads)), 0.0, np.inf
+    length, low, high = start, 0.0, np.inf
     for _ in range(MOST_STEPS):
         counts = separation.fractional(tmesh.lengths / length)
         if counts is None:
@@ -298,8 +304,13 @@ def _by_total(
     return best
 
 
-def _fewest(tmesh: TMesh, separation: Separation) -> Quantization:
-    best = _nearest(tmesh, float(tmesh.lengths.sum()), separation)
+def _longest(tmesh: TMesh, separation: Separation) -> Quantization:
+    """Return counts near to an edge length so large that no arc asks for an edge."""
+    return _nearest(tmesh, float(tmesh.lengths.sum()), separation)
+
+
+def _descended(best: Quantization, tmesh: TMesh, separation: Separation) -> Quantization:
+    """Return counts with fewer quads, each the least of a number that is linear near the last."""
     for _ in range(DESCENTS):
         wanted = tmesh.lengths / best.edge_length
         counts = separation.nearest(wanted, 1e-3 + _slope(tmesh, best.counts))
