@@ -8,6 +8,7 @@ from pathlib import Path
 
 from crossview.cases.json_values import nearest
 from crossview.cases.model import Case, CaseError
+from crossview.cases.pictured import FIGURES, Pictured
 from solvers.primitives import BUILTIN
 
 
@@ -36,8 +37,8 @@ def find_case(target: str) -> Case:
     Parameters
     ----------
     target : str
-        A case file, a surface file (a case without singularities), or the name of a gallery case
-        or of a built-in surface.
+        A case file, a figure of one, a surface file (a case without singularities), or the name
+        of a gallery case or of a built-in surface.
 
     Raises
     ------
@@ -47,6 +48,8 @@ def find_case(target: str) -> Case:
     path = Path(target)
     if path.suffix.lower() == ".json":
         return Case.load(path)
+    if path.suffix.lower() in FIGURES and os.path.exists(path):
+        return Pictured.load(path).case
     if os.path.exists(path):  # also of a name too long for one
         return Case(surface=target)
     if path.name != target or path.suffix:

@@ -13,6 +13,7 @@ from cyclopts import Parameter
 
 from crossview.cases import gallery as cases
 from crossview.cases.model import Case
+from crossview.cases.pictured import Pictured
 from crossview.cli.options import CaseOptions, Flag, Output, QuadOptions, Quiet
 from crossview.cli.terminal import say, watch
 from crossview.io.staged_files import staged, staged_file
@@ -66,7 +67,8 @@ def render(
     transparent
         Leave the background out.
     camera
-        auto, iso, xy, xz, yz, or position, focus and up as nine numbers with commas.
+        auto, iso, xy, xz, yz or from behind yx, zx, zy; or position, focus and up as nine numbers
+        with commas, a tenth (half the height seen) for a parallel view.
     """
     from crossview.export.figures import check, shows_curves
     from crossview.export.figures import render as draw
@@ -100,6 +102,7 @@ def render(
             camera=camera,
             layout=made,
             quads=quads,
+            about=Pictured(found, camera).words(target.parent),
         )
         return solution
 

@@ -7,6 +7,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from PIL.PngImagePlugin import PngInfo
+
 from crossview.export.raster import FigureError, check_size, picture
 from crossview.export.vector import save_vector
 from crossview.io.staged_files import staged_file
@@ -46,6 +48,7 @@ def render(
     background: Background = "white",
     layout: QuadLayout | None = None,
     quads: QuadMesh | None = None,
+    about: str = "",
 ) -> Path:
     """Draw a solution to a file.
 
@@ -65,12 +68,15 @@ def render(
     transparent : bool
         Leave the background out.
     camera : str
-        auto, iso, xy, xz, yz, or px,py,pz,fx,fy,fz,ux,uy,uz: position, focus, up.
+        auto, iso, xy, xz, yz or from behind yx, zx, zy; or px,py,pz,fx,fy,fz,ux,uy,uz: position,
+        focus, up, and perhaps half the height seen, for a parallel view.
     background : {"white", "dark"}
     layout : QuadLayout, optional
         For the layer layout, and for separatrices that are exact.
     quads : QuadMesh, optional
         For the layer quads.
+    about : str
+        What the file carries unseen: of `Pictured.words`, so that it opens as its case.
 
     Returns
     -------
@@ -98,7 +104,7 @@ def render(
         ),
         **_meshes(solution, chosen, layout, quads),
     )
-    return render_view(view, path, size=size, scale=scale, camera=camera)
+    return render_view(view, path, size=size, scale=scale, camera=camera, about=about)
 
 
 def _meshes(
@@ -161,6 +167,7 @@ def render_view(
     scale: float = 1.0,
     camera: str | Camera = "auto",
     dpi: float | None = None,
+    about: str = "",
 ) -> Path:
     """Draw a view to a file; parameters as of `render`.
 
@@ -171,8 +178,11 @@ def render_view(
     _check_kind(target)
     with staged_file(target) as made:
         if target.suffix.lower() == ".png":
-            said = {} if dpi is None else {"dpi": (dpi, dpi)}
+            said: dict[str, Any] = {} if dpi is None else {"dpi": (dpi, dpi)}
+            if about:
+                said["pnginfo"] = PngInfo()
+                said["pnginfo"].add_text("Description", about)
             picture(view, size, scale, camera).save(made, "PNG", **said)
         else:
-            save_vector(view, made, size, scale, camera, dpi)
+            save_vector(view, made, size, scale, camera, dpi, about)
     return target

@@ -57,6 +57,7 @@ def save_vector(
     scale: float,
     camera: str | Camera,
     dpi: float | None = None,
+    about: str = "",
 ) -> None:
     """Draw a view to an SVG or PDF file, by its suffix; parameters as of `figures.render_view`."""
     bare = _only_surface(view)
@@ -83,9 +84,11 @@ def save_vector(
         _write_legend(sheet, view, size[1] / pixel_ratio(size))
         _draw_bar(sheet, view, size[0] / pixel_ratio(size), eye.limits)
         if path.suffix.lower() == ".svg":
-            FigureCanvasSVG(figure).print_svg(path, metadata={"Date": None})
+            said = {"Date": None, "Description": about or None}
+            FigureCanvasSVG(figure).print_svg(path, metadata=said)
         else:
-            FigureCanvasPdf(figure).print_pdf(path, metadata={"CreationDate": None})
+            said = {"CreationDate": None, "Keywords": about or None}
+            FigureCanvasPdf(figure).print_pdf(path, metadata=said)
 
 
 def _only_surface(view: SceneView) -> SceneView:

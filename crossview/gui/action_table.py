@@ -152,16 +152,26 @@ def _methods() -> tuple[ActionSpec, ...]:
 
 
 def _views() -> tuple[ActionSpec, ...]:
-    views = (("xy", "From above"), ("xz", "From the front"), ("yz", "From the right"))
+    views = (
+        ("xz", "From the front"),
+        ("zx", "From the back"),
+        ("yz", "From the right"),
+        ("zy", "From the left"),
+        ("xy", "From above"),
+        ("yx", "From below"),
+        ("iso", "From a corner"),
+    )
     return tuple(
         ActionSpec(
             f"view-{direction}",
             text,
             "View",
             lambda w, direction=direction: w.look_from(direction),  # type: ignore[misc]
+            (f"Ctrl+{key}",),
+            tip="Fill the window with the whole surface, seen from there",
             enabled=_open,
         )
-        for direction, text in views
+        for key, (direction, text) in enumerate(views, start=1)
     )
 
 
@@ -213,6 +223,11 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec(
         "redo", "Redo", "Edit", lambda w: w.session.edits.redo(), ("Ctrl+Shift+Z", "Ctrl+Y"),
         "redo", enabled=lambda s: s.redo_name is not None,
+    ),
+    ActionSpec(
+        "copy-script", "Copy as Python", "Edit", lambda w: w.copy_script(),
+        tip="A script that solves what is open and makes the quads shown", enabled=_open,
+        separated=True,
     ),
     ActionSpec(
         "select-all", "Select all", "Edit", lambda w: w.session.pointer.select_all(),
@@ -352,6 +367,20 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "Show the whole surface", _open,
     ),
     *_views(),
+    ActionSpec(
+        "projection", "Perspective or parallel", "View", lambda w: w.change_projection(), ("O",),
+        tip="Show in parallel what is shown in perspective, or the other way round",
+        enabled=_open,
+    ),
+    ActionSpec(
+        "copy-camera", "Copy camera", "View", lambda w: w.copy_camera(), ("Ctrl+Shift+C",),
+        tip="As text for the command line, a script or another window", enabled=_open,
+        separated=True,
+    ),
+    ActionSpec(
+        "paste-camera", "Paste camera", "View", lambda w: w.paste_camera(), ("Ctrl+Shift+V",),
+        tip="Look with the camera that was copied", enabled=_open,
+    ),
     *_layers(),
     ActionSpec(
         "dark", "Dark scene", "View",
@@ -365,6 +394,14 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec(
         "palette", "Command palette…", "Help", lambda w: w.show_palette(), ("Ctrl+Shift+P",),
         "search", "Find any action by name",
+    ),
+    ActionSpec(
+        "keys", "Keys", "Help", lambda w: w.show_keys(), ("F1",),
+        tip="List all keys", separated=True,
+    ),
+    ActionSpec(
+        "diagnostics", "Copy diagnostics", "Help", lambda w: w.copy_diagnostics(),
+        tip="Versions, machine, what is open and the message, for a report of trouble",
     ),
     ActionSpec(
         "about", "About crossview", "Help", lambda w: w.show_about(), separated=True,

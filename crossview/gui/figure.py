@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+from crossview.cases.model import Case
+from crossview.cases.pictured import Pictured
 from crossview.export.figures import render_view
 from crossview.scene import Camera, SceneView
 
@@ -48,11 +50,14 @@ class Figure:
     camera : Camera
         From where it is seen.
     settings : FigureSettings
+    case : Case
+        What it is of; the file carries it.
     """
 
     view: SceneView
     camera: Camera
     settings: FigureSettings
+    case: Case
 
     def write(self, path: Path) -> None:
         """Draw it to a file.
@@ -69,4 +74,5 @@ class Figure:
             scale=self.settings.scale,
             camera=self.camera,
             dpi=self.settings.dpi,
+            about=Pictured(self.case, self.camera.text).words(path.parent),
         )

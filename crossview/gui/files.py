@@ -134,7 +134,7 @@ class Files:
             self._parent,
             "Open a surface or a case",
             self._folder(),
-            f"Surfaces and cases ({patterns} *.json);;All files (*)",
+            f"Surfaces, cases and figures ({patterns} *.json *.png *.svg *.pdf);;All files (*)",
         )
         if path:
             self.open(path)

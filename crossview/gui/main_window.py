@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QPoint, QSize
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QShowEvent
+from pathlib import Path
+
+from PySide6.QtCore import QPoint, QSize, Qt
+from PySide6.QtGui import (
+    QCloseEvent,
+    QDragEnterEvent,
+    QDropEvent,
+    QGuiApplication,
+    QShowEvent,
+)
 from PySide6.QtWidgets import QMainWindow, QMessageBox
 
 import crossview
+from crossview.cases.pictured import FIGURES, Pictured
 from crossview.gui.action_table import ACTIONS
 from crossview.gui.actions import Actions
 from crossview.gui.centre import Centre
@@ -14,7 +23,8 @@ from crossview.gui.docks import add_docks
 from crossview.gui.figure import Figure
 from crossview.gui.figure_preview import FigurePreview
 from crossview.gui.files import Files
-from crossview.gui.menus import Menus
+from crossview.gui.help_page import KeysPage, diagnostics
+from crossview.gui.menus import MENUS, Menus
 from crossview.gui.method_box import MethodBox
 from crossview.gui.mouse import Mouse
 from crossview.gui.palette import Palette
@@ -33,8 +43,10 @@ from crossview.gui.toolbar import fill_toolbar
 from crossview.gui.valence_box import ValenceBox
 from crossview.gui.viewport import Viewport
 from crossview.gui.window_geometry import WindowGeometry
+from crossview.scene.camera import read_camera
 from crossview.session.opening import Opening
 from crossview.session.pictures import figure_view
+from crossview.session.script import script
 from crossview.session.session import Session
 from crossview.session.state import SessionState
 
@@ -112,7 +124,8 @@ class MainWindow(QMainWindow):
             return None
         settings = self.export_panel.settings
         view = figure_view(self.state, settings.transparent, self.viewport.held.ranges)
-        return Figure(view, self.viewport.scene.camera, settings)
+        camera = self.viewport.scene.camera
+        return Figure(view, camera, settings, self.state.document.to_case())
 
     def edit_valence(self, index: int) -> None:
         """Let the valence of singularity `index` be typed."""
@@ -121,6 +134,37 @@ class MainWindow(QMainWindow):
     def look_from(self, camera: str) -> None:
         """Look from one of the scene's preset directions; "auto": a good side."""
         self.viewport.look_from(camera)
+
+    def change_projection(self) -> None:
+        """Show in perspective what is shown in parallel, or the other way round."""
+        self.viewport.change_projection()
+
+    def copy_camera(self) -> None:
+        """Put the camera into the clipboard, as text."""
+        QGuiApplication.clipboard().setText(self.viewport.scene.camera.text)
+
+    def paste_camera(self) -> None:
+        """Look with the camera that the clipboard holds."""
+        text = QGuiApplication.clipboard().text()
+        self.session.attempt("camera", lambda: self._look(text))
+
+    def copy_script(self) -> None:
+        """Put a Python script of what was done into the clipboard."""
+        QGuiApplication.clipboard().setText(script(self.state))
+
+    def copy_diagnostics(self) -> None:
+        """Put what a report of trouble should tell into the clipboard."""
+        QGuiApplication.clipboard().setText(diagnostics(self.state))
+
+    def show_keys(self) -> None:
+        """List all keys."""
+        actions = {
+            title: [self.actions_table.by_name[s.name] for s in ACTIONS if s.menu == title]
+            for title in MENUS
+        }
+        page = KeysPage(actions, self)
+        page.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        page.show()
 
     def reset_docks(self) -> None:
         """Put all panels back to where they stand at first."""
@@ -213,6 +257,15 @@ class MainWindow(QMainWindow):
         self.menus.show_recent()
         self._show_name()
         self.centre.unsaved.look()
+        if Path(opening.source).suffix.lower() in FIGURES:
+            self.session.attempt("open", lambda: self._look(Pictured.load(opening.source).camera))
+
+    def _look(self, text: str) -> None:
+        camera = read_camera(text)
+        if isinstance(camera, str):
+            self.viewport.look_from(camera)
+        else:
+            self.viewport.look_with(camera)
 
     def _show_name(self) -> None:
         name = self.files.name

@@ -62,10 +62,9 @@ class Menus:
         self._menus["File"].insertMenu(actions["save"], self._recent)
         self.show_recent()
         gallery = self._menus["Gallery"]
-        gallery.setToolTipsVisible(True)
         for name in names():
-            action = self._add(gallery, name, partial(open_target, name))
-            action.setToolTip(Case.load(path_of(name)).title)
+            title = Case.load(path_of(name)).title
+            self._add(gallery, f"{name}: {title}", partial(open_target, name))
         self._fill_view(panels)
 
     def menu(self, title: str) -> QMenu:

@@ -22,7 +22,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 from pyvistaqt import QtInteractor
 
 from crossview.gui.picking import Pick, Picker, Place
-from crossview.scene import Scene, software_renderer
+from crossview.scene import Camera, Scene, software_renderer
 from crossview.scene.singularities import marker_radius
 from crossview.session.hand import Focus, SelectTool
 from crossview.session.held_ranges import HeldRanges
@@ -133,6 +133,16 @@ class Viewport(QWidget):
         self._fitted = camera
         self.scene.fit(camera, all_texts=True)
         self._update()
+
+    def look_with(self, camera: Camera) -> None:
+        """Look with a camera as it is."""
+        self._fitted = None
+        self.scene.fit(camera)
+        self._update()
+
+    def change_projection(self) -> None:
+        """Show in perspective what is shown in parallel, or the other way round."""
+        self.look_with(self.scene.camera.other_projection)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Fill the new room, unless the user has chosen a view."""

@@ -28,6 +28,24 @@ class WindowVerbs(Protocol):
     def edit_valence(self, index: int) -> None:
         """Let the valence of singularity `index` be typed."""
 
+    def change_projection(self) -> None:
+        """Show in perspective what is shown in parallel, or the other way round."""
+
+    def copy_camera(self) -> None:
+        """Put the camera into the clipboard, as text."""
+
+    def paste_camera(self) -> None:
+        """Look with the camera that the clipboard holds."""
+
+    def copy_script(self) -> None:
+        """Put a Python script of what was done into the clipboard."""
+
+    def copy_diagnostics(self) -> None:
+        """Put what a report of trouble should tell into the clipboard."""
+
+    def show_keys(self) -> None:
+        """List all keys."""
+
     def escape(self) -> None:
         """Put a dragged singularity back, else take the select tool."""
 

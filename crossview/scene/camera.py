@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from vtkmodules.vtkCommonMath import vtkMatrix4x4
@@ -20,8 +20,11 @@ _LYING = 0.35
 model files do. Chosen.
 """
 
-PRESETS = ("auto", "iso", "xy", "xz", "yz")
+PRESETS = ("auto", "iso", "xy", "xz", "yz", "yx", "zx", "zy")
 """Names of usual views."""
+
+_AXES = ("xy", "xz", "yz", "yx", "zx", "zy")
+"""Those along an axis; the last three from behind."""
 
 
 @dataclass(frozen=True)
@@ -67,6 +70,25 @@ class Camera:
             camera.GetParallelScale() if parallel else None,
         )
 
+    @property
+    def text(self) -> str:
+        """As `read_camera` takes it: nine numbers, ten of a parallel view."""
+        numbers = [*self.position, *self.focus, *self.up]
+        if self.parallel_scale is not None:
+            numbers.append(self.parallel_scale)
+        return ",".join(f"{number:.9g}" for number in numbers)
+
+    @property
+    def other_projection(self) -> Camera:
+        """Perspective in place of a parallel view, or back; what is at the focus keeps its size."""
+        away = np.subtract(self.position, self.focus)
+        tan = np.tan(np.radians(_VIEW_ANGLE) / 2.0)
+        if self.parallel_scale is None:
+            return replace(self, parallel_scale=float(np.linalg.norm(away) * tan))
+        away = away / np.linalg.norm(away) * (self.parallel_scale / tan)
+        position = tuple((np.asarray(self.focus) + away).tolist())
+        return replace(self, position=position, parallel_scale=None)
+
     def apply(self, camera: vtkCamera) -> None:
         """Set a VTK camera."""
         camera.SetPosition(*self.position)
@@ -85,7 +107,8 @@ def camera_for(text: str, triangles: Triangles, room: Room) -> Camera:
     Parameters
     ----------
     text : str
-        One of `PRESETS`, or nine numbers "px,py,pz,fx,fy,fz,ux,uy,uz": position, focus, up.
+        One of `PRESETS`, or nine numbers "px,py,pz,fx,fy,fz,ux,uy,uz": position, focus, up; a
+        tenth is half the height seen in a parallel view.
     triangles : Triangles
         What is to be seen.
     room : Room
@@ -100,7 +123,7 @@ def camera_for(text: str, triangles: Triangles, room: Room) -> Camera:
     if isinstance(chosen, Camera):
         return chosen
     away, up = _directions(chosen, triangles)
-    parallel = chosen in ("xy", "xz", "yz") or triangles.plane_normal is not None
+    parallel = chosen in _AXES or triangles.plane_normal is not None
     return (_fit_parallel if parallel else _fit)(triangles.points, away, up, room)
 
 
@@ -118,17 +141,19 @@ def read_camera(text: str) -> str | Camera:
         numbers = [float(part) for part in text.split(",")]
     except ValueError:
         numbers = []
-    if len(numbers) != 9 or not (np.abs(numbers) < LARGEST).all():
+    tenth = len(numbers) == 10 and numbers[9] > 0.0
+    if not (len(numbers) == 9 or tenth) or not (np.abs(numbers) < LARGEST).all():
         known = ", ".join(PRESETS)
         raise CrossviewError(
             f'no camera "{text}"', "camera", f"choose from {known}, or px,py,pz,fx,fy,fz,ux,uy,uz"
         )
-    position, focus, upward = numbers[:3], numbers[3:6], numbers[6:]
+    position, focus, upward = numbers[:3], numbers[3:6], numbers[6:9]
     if np.linalg.norm(np.cross(np.subtract(position, focus), upward)) == 0.0:
         raise CrossviewError(
             "the camera looks along its own up", "camera", "choose another up or position"
         )
-    return Camera(tuple(position), tuple(focus), tuple(upward))
+    scale = numbers[9] if tenth else None
+    return Camera(tuple(position), tuple(focus), tuple(upward), parallel_scale=scale)
 
 
 def rows(matrix: vtkMatrix4x4) -> FloatArray:
@@ -139,8 +164,10 @@ def rows(matrix: vtkMatrix4x4) -> FloatArray:
 def _directions(text: str, triangles: Triangles) -> tuple[FloatArray, FloatArray]:
     """Return the direction towards the eye and the one that is up."""
     x, y, z = np.eye(3)
-    if text in ("xy", "xz", "yz"):
-        return {"xy": (z, y), "xz": (-y, z), "yz": (x, z)}[text]
+    if text in _AXES:
+        ahead = {"xy": (z, y), "xz": (-y, z), "yz": (x, z)}
+        behind = {"yx": (-z, y), "zx": (y, z), "zy": (-x, z)}
+        return (ahead | behind)[text]
     if text == "auto" and triangles.plane_normal is not None:
         normal = triangles.plane_normal
         return normal, (z if abs(normal[2]) < 0.9 else y)
