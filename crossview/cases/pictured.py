@@ -19,6 +19,7 @@ FIGURES = (".png", ".svg", ".pdf")
 """Endings of files that figures are written to."""
 
 _FOUND = re.compile(rb"crossview-case:([A-Za-z0-9+/=]+):")
+"""What `Pictured.words` writes, anywhere in a file."""
 
 
 @dataclass(frozen=True)
