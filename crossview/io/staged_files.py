@@ -14,6 +14,14 @@ from crossview.io.swapped import flush, swapped
 from solvers.errors import CrossviewError
 
 
+ELSEWHERE = "choose another place"
+"""What to do where nothing can be written."""
+
+
+class Unwritable(CrossviewError):
+    """Nothing can be written somewhere; parameters as of `CrossviewError`."""
+
+
 @contextmanager
 def staged(directory: str | Path, kept: Iterable[str | Path] = ()) -> Iterator[Path]:
     """A temporary folder whose contents move to `directory` if the block ends well.
@@ -92,6 +100,8 @@ def _staging(folder: Path, named: Path) -> Iterator[Path]:
     try:
         staging.mkdir(mode=0o700)  # within, so that no interruption comes between
         yield staging
+    except Unwritable as error:  # a file within, whose temporary place means nothing to anyone
+        raise Unwritable(error.what, str(named), ELSEWHERE) from error
     except OSError as error:
         raise unwritable(named, error) from error
     finally:
@@ -154,8 +164,6 @@ def _move(staging: Path, target: Path) -> None:
         flush(folder)
 
 
-def unwritable(target: Path, error: OSError) -> CrossviewError:
+def unwritable(target: Path, error: OSError) -> Unwritable:
     """Return the error that says why nothing is written there."""
-    return CrossviewError(
-        f"cannot write, {error.strerror or error}", str(target), "choose another place"
-    )
+    return Unwritable(f"cannot write, {error.strerror or error}", str(target), ELSEWHERE)

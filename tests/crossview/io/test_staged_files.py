@@ -206,3 +206,11 @@ def test_a_disk_that_is_full_is_one_line(tmp_path: Path) -> None:
     with full, staged(tmp_path / "folder") as staging:
         (staging / "x").write_bytes(bytes(30_000))
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.usefixtures("small_files")
+def test_a_file_within_a_folder_is_told_by_the_place_that_was_named(tmp_path: Path) -> None:
+    full = pytest.raises(CrossviewError, match="cannot write, File too large")
+    with full as caught, staged(tmp_path / "folder") as staging, staged_file(staging / "x") as made:
+        made.write_bytes(bytes(30_000))
+    assert caught.value.where == str(tmp_path / "folder")
