@@ -23,6 +23,10 @@ AREA_LIMIT = 0.03
 STEP, FINE = 0.5, 0.1
 """How far apart places on faces, and on segments, are measured, in mean edges. Chosen."""
 
+MOST = 1_000_000
+"""Places on segments; further apart where there would be more. Chosen, for memory: a mesh far too
+large for its surface is told so all the same."""
+
 
 class Distances:
     """Distances between a mesh and what it is checked against.
@@ -89,8 +93,10 @@ class Distances:
         self, name: str, kind: str, said: str, a: Floats, b: Floats, limit: float
     ) -> None:
         """From segments (k, 2, 3) to others."""
-        places, _ = along(a, FINE * self._edge)
-        self._judge(name, kind, said, places, to_segments(places, b, FINE * self._edge), limit)
+        longest = max(float(np.linalg.norm(x[:, 1] - x[:, 0], axis=1).sum()) for x in (a, b))
+        spacing = max(FINE * self._edge, longest / MOST)
+        places, _ = along(a, spacing)
+        self._judge(name, kind, said, places, to_segments(places, b, spacing), limit)
 
     def _judge(
         self, name: str, kind: str, said: str, places: Floats, gaps: Floats, limit: float

@@ -222,6 +222,12 @@ def test_a_vertex_off_the_surface_is_off_both_ways() -> None:
     assert "surface" in kinds(found)
 
 
+def test_a_mesh_in_another_unit_is_off_and_measured_in_few_places() -> None:
+    found = certify(with_points(square(8), 1e6 * flat(8)), unit_square())
+    assert {"surface", "boundary", "area"} <= kinds(found)
+    assert found.measures["distances"]["area_ratio"] == pytest.approx(1e12)
+
+
 def test_a_bump_that_the_mesh_misses_is_off() -> None:
     n = 32
     points = flat(n)
