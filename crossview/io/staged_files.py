@@ -13,7 +13,6 @@ from crossview.io.staging import remove, staging_in, sweep
 from crossview.io.swapped import flush, swapped
 from solvers.errors import CrossviewError
 
-
 ELSEWHERE = "choose another place"
 """What to do where nothing can be written."""
 
