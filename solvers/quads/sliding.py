@@ -148,12 +148,30 @@ class Sliding:
         at = np.flatnonzero(railed)
         who = ids[at]
         behind, ahead = self._gaps(places)
-        small = 0.25 * np.minimum(behind, ahead)[who]
-        after, before = (self._on_rails(who, s[at] + d).vertices for d in (small, -small))
-        tangent = unit(after - before)
+        tangent = self._along_rails(who, s[at], 0.25 * np.minimum(behind, ahead)[who])
         step = ((targets[at] - vertices[at]) * tangent).sum(axis=1)
         step = np.clip(step, -REACH * behind[who], REACH * ahead[who])
         return made.put(at, self._on_rails(who, s[at] + step))
+
+    def tangents(self, places: Places, ids: IntArray) -> FloatArray:
+        """Return the unit vectors (k, 2, 3) along which vertices may move, 0 if not along two.
+
+        Parameters
+        ----------
+        places : Places
+            Of all vertices.
+        ids : (k,) int array
+            Vertices.
+        """
+        face = places.faces[ids]
+        found = np.stack([frame[face] for frame in self.mesh.surface.face_frames], axis=1)
+        railed = self.rail[ids] >= 0
+        if railed.any():
+            who = ids[railed]
+            small = 0.25 * np.minimum(*self._gaps(places))[who]
+            found[railed] = 0.0
+            found[railed, 0] = self._along_rails(who, places.s[who], small)
+        return found
 
     def held_back(
         self, places: Places, moved: Places, quality: FloatArray, floor: FloatArray
@@ -200,6 +218,11 @@ class Sliding:
             if len(on):
                 made = made.put(on, Places(rail.positions(s[on]), *rail.points(s[on]), s[on]))
         return made
+
+    def _along_rails(self, ids: IntArray, s: FloatArray, small: FloatArray) -> FloatArray:
+        """Return the unit tangents (k, 3) of rails, as differences over small lengths."""
+        after, before = (self._on_rails(ids, s + d).vertices for d in (small, -small))
+        return unit(after - before)
 
     def _gaps(self, places: Places) -> tuple[FloatArray, FloatArray]:
         """Return the lengths (n,) to the vertices behind and ahead on the same rail."""

@@ -4,7 +4,8 @@ Local step: each quad asks its corners to be those of the nearest rectangle whos
 mean sides, drawn somewhat towards those it had at first, so that sizes and aspects stay. Global
 step: each vertex takes the mean of what its quads ask for, small quads counting as much as large
 ones, and is put back on the surface or on its rail. Each quad has a floor, what it was at first or
-a good value; where one would fall below, its vertices stay.
+a good value; where one would fall below, its vertices stay. Quads that are inverted all the same
+are unfolded together with those around.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from solvers.quads.corners import unit
 from solvers.quads.quadmesh import QuadMesh
 from solvers.quads.rails import Rail, boundary_rails
 from solvers.quads.sliding import SAME_PLACE, Places, Sliding
+from solvers.quads.unfolding import unfold, worth
 from solvers.quads.untangling import POOR, improve_worst
 from solvers.surface.triangulation import FloatArray, IntArray
 
@@ -53,8 +55,9 @@ def smooth(
 ) -> QuadMesh:
     """Return a mesh with quads more like rectangles, none worse than before and than `GOOD`.
 
-    Inverted quads may become worse, if fewer are left, but none than the worst. So no more are
-    inverted, and the least scaled Jacobian is no lower, unless it was good.
+    Where quads are inverted, those around them may become worse too, if fewer are left inverted,
+    but none than the worst. So no more are inverted, and the least scaled Jacobian is no lower,
+    unless it was good.
     Vertices stay on the surface, those of a boundary or a curve on it, fixed ones where they are.
     The nearest vertex is put on each sharp turn of a boundary or a curve that has none, if that
     spoils no quad.
@@ -119,19 +122,34 @@ def smooth(
     floor = np.minimum(quality, GOOD)
     found = _kept_above(floor, sliding, start, rounds)
     if (sliding.quality(found, mesh.quads) <= 0).any():
-        # Some unfold only if they may fold further on the way, if need be not beyond the worst.
-        for depth in (-1.0, quality.min()):
-            loose = np.where(quality > 0, floor, depth)
-            tried = _kept_above(loose, sliding, start, rounds)
-            if sliding.quality(tried, mesh.quads).min() >= quality.min():
-                found = max(found, tried, key=lambda p: _worth(sliding.quality(p, mesh.quads)))
-                break
+        found = _unfolded(sliding, start, found, rounds)
     return replace(mesh, vertices=found.vertices, faces=found.faces, barycentric=found.weights)
 
 
-def _worth(quality: FloatArray) -> tuple[int, float]:
-    """Return what to compare meshes by: how few quads are inverted, then the least quality."""
-    return -int((quality <= 0).sum()), float(quality.min())
+def _unfolded(sliding: Sliding, start: Places, found: Places, rounds: int) -> Places:
+    """Return places with fewer inverted quads than those found, none worse than at the start."""
+    quads = sliding.mesh.quads
+    quality = sliding.quality(start, quads)
+    least, floor = quality.min(), np.minimum(quality, GOOD)
+
+    def better(found: Places, tried: Places) -> Places:
+        spoilt = sliding.quality(tried, quads).min() < least
+        return max(
+            found, found if spoilt else tried, key=lambda p: worth(sliding.quality(p, quads))
+        )
+
+    # Some unfold only if they may fold further on the way, if need be not beyond the worst.
+    for depth in (-1.0, least):
+        tried = _kept_above(np.where(quality > 0, floor, depth), sliding, start, rounds)
+        found = better(found, tried)
+        if sliding.quality(tried, quads).min() >= least:
+            break
+    if (sliding.quality(found, quads) <= 0).any():
+        free = np.flatnonzero(~sliding.mesh.fixed)
+        tried = unfold(sliding, (found, start), free, _sides(sliding.mesh))
+        floor = np.minimum(sliding.quality(tried, quads), GOOD)
+        found = better(found, _kept_above(floor, sliding, tried, rounds))
+    return found
 
 
 def _kept_above(floor: FloatArray, sliding: Sliding, start: Places, rounds: int) -> Places:
@@ -164,8 +182,7 @@ def _smoothed(
     fixed = mesh.fixed.copy()
     fixed[held] = True
     free = np.flatnonzero(~fixed)
-    sides = np.linalg.norm(_mean_sides(mesh.vertices[mesh.quads]), axis=2)
-    sides = np.maximum(sides, 1e-9 * sides.max(initial=1e-300))
+    sides = _sides(mesh)
     for _ in range(STAGES):
         places = _rounds(sliding, places, free, floor, sides, rounds)
         if sliding.quality(places, mesh.quads).min(initial=1.0) >= POOR:
@@ -248,6 +265,12 @@ def rectangles(corners: FloatArray, outward: FloatArray, sides: FloatArray) -> F
     v = np.sqrt(0.125) * height[:, None] * (long - short)
     middle = corners.mean(axis=1)
     return np.stack([middle - u - v, middle + u - v, middle + u + v, middle - u + v], axis=1)
+
+
+def _sides(mesh: QuadMesh) -> FloatArray:
+    """Return the lengths (2, q) of the mean sides of quads, none of no length."""
+    sides = np.linalg.norm(_mean_sides(mesh.vertices[mesh.quads]), axis=2)
+    return np.asarray(np.maximum(sides, 1e-9 * sides.max(initial=1e-300)))
 
 
 def _mean_sides(corners: FloatArray) -> FloatArray:
