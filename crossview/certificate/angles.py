@@ -19,10 +19,14 @@ AGREEING = 0.95
 then 36 degrees apart."""
 
 NEAR = 30.0
-"""Degrees from 0 and from 180 within which an angle is measured with more places. Chosen."""
+"""Degrees above 0 and below 180 up to which an angle is measured with more places. Chosen."""
 
 STRAIGHT = 1e-6
 """Degrees below 180, and above 0, that count as 180 and 0. Chosen, above rounding."""
+
+AT_ONCE = (0.01, 0.2)
+"""How far around a corner places are taken together, in its half sides. Chosen: as good as at the
+corner, and over what a coarse surface has for its bend."""
 
 NO_LENGTH = 1e-9
 """Length of a side that counts as none, in that of the face's longest. Chosen, above rounding."""
@@ -122,7 +126,9 @@ def corner_angles(faces: Faces, triangles: Floats, ground: Ground) -> Angles:
 
     The normal at a corner is the mean of the surface's normals under the quarter of the face there
     (between the corner, the middles of its two sides and that of the face): those of its own side
-    of a crease, however the face itself is bent.
+    of a crease, however the face itself is bent. Where the surface bends much under a quarter, as
+    at the tip of a horn, the means all around the corner itself are tried too, and the one taken
+    in which the corner is most upright.
 
     Parameters
     ----------
@@ -142,26 +148,38 @@ def corner_angles(faces: Faces, triangles: Floats, ground: Ground) -> Angles:
         level = np.einsum("ij,ij->i", ahead, back) - rise
         return Angles(faces, across, level, normals)
 
-    unit = _unit(doubled(triangles))
-    normals, clear = _normals(faces, unit, ground, np.arange(len(faces.corners)), FEW)
-    degrees = measured(normals).degrees
-    close = np.minimum(np.abs(degrees - 180), np.minimum(degrees, 360 - degrees)) < NEAR
-    again = np.flatnonzero(close | ~clear)
-    normals[again] = _normals(faces, unit, ground, again, MANY)[0]
-    return measured(normals)
+    wide, clear = _normals(faces, triangles, ground, np.arange(len(faces.corners)), FEW, None)
+    degrees = measured(wide).degrees
+    again = np.flatnonzero((degrees < NEAR) | (degrees > 180 - NEAR) | ~clear)
+    wide[again] = _normals(faces, triangles, ground, again, MANY, None)[0]
+    best = wide
+    for reach in AT_ONCE:
+        near = wide.copy()
+        near[again] = _normals(faces, triangles, ground, again, MANY, reach)[0]
+        upright = measured(near)._sines > measured(best)._sines
+        best = np.where(upright[:, None], near, best)
+    return measured(best)
 
 
 def _normals(
-    faces: Faces, unit: Floats, ground: Ground, corners: Ints, n: int
+    faces: Faces, triangles: Floats, ground: Ground, corners: Ints, n: int, around: float | None
 ) -> tuple[Floats, Bools]:
-    """Normals (k, 3) at some corners from n x n places each, and whether those agree."""
+    """Normals (k, 3) at some corners from n x n places each, and whether those agree.
+
+    Places are under the quarter of the face, or so far around the corner in its half sides.
+    """
     places = faces.points[faces.corners]
     here, middle = places[corners], faces.middles[faces.owner[corners]]
     sides = [(here + places[at[corners]]) / 2 for at in (faces.following, faces.before)]
     quarter = np.stack([here, sides[0], middle, sides[1]])
+    if around is not None:
+        ways = around * (np.stack(sides) - here)
+        turns = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+        quarter = here + np.stack([a * ways[0] + b * ways[1] for a, b in turns])
     step = (np.arange(n) + 0.5) / n
     s, t = np.repeat(step, n), np.tile(step, n)
     weights = np.stack([(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t])
+    unit = _unit(doubled(triangles))
     under = ground.under(np.einsum("qp,qkx->kpx", weights, quarter).reshape(-1, 3))
     mean = unit[under].reshape(len(corners), n * n, 3).mean(axis=1)
     return _unit(mean), np.asarray(np.linalg.norm(mean, axis=1) > AGREEING)

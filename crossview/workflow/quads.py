@@ -6,7 +6,11 @@ import time
 from collections.abc import Generator, Iterable
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from crossview.cases.model import PlacedSingularity
+from crossview.certificate import Faces, Reference, certify
+from crossview.workflow.certification import faces_of
 from crossview.workflow.layout import layout
 from crossview.workflow.solution import Solution
 from solvers.errors import CrossviewError
@@ -16,6 +20,7 @@ from solvers.progress import Progress, between
 from solvers.quads import (
     MAX_CHORD,
     MOST_QUADS,
+    Condition,
     QuadMesh,
     bending_conditions,
     bent_spacing,
@@ -25,6 +30,19 @@ from solvers.quads import (
 )
 from solvers.singularities import Singularity, SplitOne
 from solvers.surface import TriSurface
+
+TRIALS = ((1.0, True), (0.97, True), (1.0, False), (1.03, False))
+"""Shares of the wanted number, and whether arcs may vanish, that are tried one after the other
+until no quad is inverted.
+
+Chosen: such numbers still meet the wanted one, and where arcs vanish singularities come together.
+"""
+
+UPRIGHT = 0.1
+"""Least scaled Jacobian above which no certificate is asked whether quads are inverted.
+
+Chosen: upright by whatever measure.
+"""
 
 DEFAULT_QUADS = 5_000
 """Number of quads that are made if nothing else is said. Chosen."""
@@ -96,7 +114,7 @@ class MeshOptions:
 
 
 def quads(layout: QuadLayout, options: MeshOptions) -> Generator[Progress, None, QuadMesh]:
-    """Fill a layout with quads.
+    """Fill a layout with quads; with a few more or less where some would be inverted.
 
     Parameters
     ----------
@@ -111,9 +129,38 @@ def quads(layout: QuadLayout, options: MeshOptions) -> Generator[Progress, None,
     """
     number = options.number_on(layout.surface)
     require_closing(layout.integrated.field.singularities)
+    tried: list[QuadMesh] = []
+    for share, vanish in TRIALS:
+        begun = len(tried) / len(TRIALS)
+        made = _filled(layout, options, round(share * number), vanish)
+        tried.append((yield from between(made, begun, begun + 1 / len(TRIALS))))
+        if not options.smooth or _standing(tried[-1])[0] == 0:
+            break
+    best = max(tried, key=_standing)
+    best.check()
+    chosen = best.quantization
+    return replace(best, quantization=chosen and replace(chosen, n_wanted=number))
+
+
+def _standing(mesh: QuadMesh) -> tuple[int, float]:
+    """Return what to compare meshes by: how few quads are inverted, then the least corner."""
+    least = float(mesh.scaled_jacobian.min())
+    if least > UPRIGHT:
+        return 0, least
+    against = Reference(Faces.of_one_size(mesh.surface.vertices, mesh.surface.faces))
+    inverted = certify(faces_of(mesh), against).inverted
+    return -max(inverted, int((mesh.scaled_jacobian <= 0).sum())), least
+
+
+def _filled(
+    layout: QuadLayout, options: MeshOptions, number: int, vanish: bool
+) -> Generator[Progress, None, QuadMesh]:
+    """Fill a layout with about so many quads; arcs may vanish, or each has one edge at least."""
     yield Progress("choosing numbers of quads", 0.0)
     bends = bending_conditions(layout, options.max_chord)
-    chosen = quantize_to(layout.tmesh, number, conditions=bends)
+    if not vanish:
+        bends = [*bends, *(Condition(np.array([arc]), 1) for arc in range(layout.tmesh.n_arcs))]
+    chosen = quantize_to(layout.tmesh, max(1, number), conditions=bends)
     yield Progress("filling the patches", 0.3)
     spacing = bent_spacing(layout, chosen.counts, options.max_chord)
     filled = replace(fill(layout, chosen.counts, spacing), quantization=chosen)
@@ -122,7 +169,6 @@ def quads(layout: QuadLayout, options: MeshOptions) -> Generator[Progress, None,
         curves = layout.integrated.aligned.features.curves
         filled = smooth(filled, curves=[curve.vertices for curve in curves])
     yield Progress("checking the quads", 0.9)
-    filled.check()
     return filled
 
 

@@ -14,6 +14,12 @@ from solvers.layouts.tracing import BORDER, Chords, Traces
 from solvers.surface.triangulation import QUARTER, FloatArray, IntArray, next_halfedge
 from solvers.surface.trisurface import TriSurface
 
+APART = 1e-10
+"""Length of an edge along a curve at least, in that of all its edges.
+
+Chosen, above rounding: where the map is so small, two corners still have two places.
+"""
+
 
 @dataclass(frozen=True, eq=False)
 class Curves:
@@ -58,7 +64,8 @@ def along_edges(
 ) -> Chords:
     """Return the chords of a curve along halfedges that follow each other, or against them."""
     z = chart.images.reshape(-1)[halfedges]
-    length = np.concatenate([[0.0], np.cumsum(np.abs(z))])
+    long = np.abs(z)
+    length = np.concatenate([[0.0], np.cumsum(np.maximum(long, APART * long.sum()))])
     axis = np.rint(np.angle(z) / QUARTER).astype(np.int64) + 2 * backwards
     tail, head = halfedges % 3, next_halfedge(halfedges) % 3
     start, end = (head, tail) if backwards else (tail, head)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from solvers.quads.bending import MAX_CHORD, bending_conditions, bent_spacing
+from solvers.quads.collapse import Condition
 from solvers.quads.corners import scaled_jacobian
 from solvers.quads.filling import fill
 from solvers.quads.quadmesh import QuadMesh
@@ -18,6 +19,7 @@ from solvers.quads.smoothing import smooth
 __all__ = [
     "MAX_CHORD",
     "MOST_QUADS",
+    "Condition",
     "QuadMesh",
     "Quantization",
     "bending_conditions",

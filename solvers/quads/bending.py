@@ -151,6 +151,11 @@ class _Polyline:
     points: FloatArray
     at: FloatArray
 
+    @property
+    def share(self) -> FloatArray:
+        """Length (k,) up to each point in that of the whole, which may be none."""
+        return np.asarray(self.at / max(float(self.at[-1]), np.finfo(float).tiny))
+
 
 def _arcs_of_features(layout: QuadLayout) -> tuple[BoolArray, BoolArray]:
     """Return which arcs lie on the boundary or on features, and which lead from one to another."""
@@ -272,14 +277,14 @@ def _spaced(line: _Polyline, n: int, turn: float) -> FloatArray | None:
     # A vertex's turn is spread over the steps beside it.
     total = np.cumsum(turning) - 0.5 * turning
     bends = min(1.0, total[-1] / (n * turn))
-    even = line.at / line.at[-1]
+    even = line.share
     share = (1 - bends) * even + bends * total / total[-1]
     return np.asarray(np.interp(np.arange(n + 1) / n, share, even))
 
 
 def _shared(line: _Polyline, n: int) -> FloatArray:
     """Return the ends (n + 1, 3) of n edges of equal shares."""
-    share = line.at / line.at[-1] * n
+    share = line.share * n
     columns = [np.interp(np.arange(n + 1), share, column) for column in line.points.T]
     return np.stack(columns, axis=1)
 
@@ -299,7 +304,7 @@ def _turning(line: _Polyline, turn: float) -> FloatArray:
 
 def _follow(line: _Polyline, turning: FloatArray, n: int, turn: float) -> bool:
     """Return whether n edges of equal shares turn by little, or are off by little."""
-    share, ends = line.at / line.at[-1] * n, _shared(line, n)
+    share, ends = line.share * n, _shared(line, n)
     edge = np.clip(share.astype(np.int64), 0, n - 1)
     much = np.bincount(edge, turning, minlength=n) > turn * (1 + 1e-6)
     along = np.diff(ends, axis=0)

@@ -54,6 +54,19 @@ class Condition:
         The arcs.
     least : int
         Their least sum.
+
+    Examples
+    --------
+    Of a rectangle of 2 by 1, as in `solvers.layouts.TMesh`, the long side gets five edges at least:
+
+    >>> import numpy as np
+    >>> from solvers.layouts import TMesh
+    >>> from solvers.quads import Condition, quantize
+    >>> every, ends = np.ones(4, dtype=bool), np.array([[0, 1], [1, 2], [2, 3], [3, 0]])
+    >>> lengths, sides = np.array([2.0, 1.0, 2.0, 1.0]), 2 * np.arange(4)
+    >>> tmesh = TMesh(ends, lengths, every, np.full(4, 2), every, every, np.arange(5), sides)
+    >>> quantize(tmesh, 0.5, conditions=[Condition(np.array([0]), 5)]).counts.tolist()
+    [5, 2, 5, 2]
     """
 
     arcs: IntArray

@@ -21,7 +21,7 @@ from solvers.quads.corners import unit
 from solvers.quads.quadmesh import QuadMesh
 from solvers.quads.rails import Rail, boundary_rails
 from solvers.quads.sliding import SAME_PLACE, Places, Sliding
-from solvers.quads.unfolding import unfold, worth
+from solvers.quads.unfolding import ENOUGH, unfold, worth
 from solvers.quads.untangling import POOR, improve_worst
 from solvers.surface.triangulation import FloatArray, IntArray
 
@@ -121,7 +121,7 @@ def smooth(
     quality = sliding.quality(start, mesh.quads)
     floor = np.minimum(quality, GOOD)
     found = _kept_above(floor, sliding, start, rounds)
-    if (sliding.quality(found, mesh.quads) <= 0).any():
+    if sliding.quality(found, mesh.quads).min(initial=1.0) < ENOUGH:
         found = _unfolded(sliding, start, found, rounds)
     return replace(mesh, vertices=found.vertices, faces=found.faces, barycentric=found.weights)
 
@@ -139,12 +139,13 @@ def _unfolded(sliding: Sliding, start: Places, found: Places, rounds: int) -> Pl
         )
 
     # Some unfold only if they may fold further on the way, if need be not beyond the worst.
-    for depth in (-1.0, least):
+    inverted = (sliding.quality(found, quads) <= 0).any()
+    for depth in (-1.0, least) if inverted else ():
         tried = _kept_above(np.where(quality > 0, floor, depth), sliding, start, rounds)
         found = better(found, tried)
         if sliding.quality(tried, quads).min() >= least:
             break
-    if (sliding.quality(found, quads) <= 0).any():
+    if sliding.quality(found, quads).min() < ENOUGH:
         free = np.flatnonzero(~sliding.mesh.fixed)
         tried = unfold(sliding, (found, start), free, _sides(sliding.mesh))
         floor = np.minimum(sliding.quality(tried, quads), GOOD)
