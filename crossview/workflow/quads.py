@@ -9,8 +9,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from crossview.cases.model import PlacedSingularity
-from crossview.certificate import Faces, Reference, certify
-from crossview.workflow.certification import faces_of
 from crossview.workflow.layout import layout
 from crossview.workflow.solution import Solution
 from solvers.errors import CrossviewError
@@ -31,17 +29,11 @@ from solvers.quads import (
 from solvers.singularities import Singularity, SplitOne
 from solvers.surface import TriSurface
 
-TRIALS = ((1.0, True), (0.97, True), (1.0, False), (1.03, False))
+TRIALS = ((1.0, True), (0.97, True), (1.03, True), (0.95, True), (1.05, True), (1.0, False))
 """Shares of the wanted number, and whether arcs may vanish, that are tried one after the other
 until no quad is inverted.
 
 Chosen: such numbers still meet the wanted one, and where arcs vanish singularities come together.
-"""
-
-UPRIGHT = 0.1
-"""Least scaled Jacobian above which no certificate is asked whether quads are inverted.
-
-Chosen: upright by whatever measure.
 """
 
 DEFAULT_QUADS = 5_000
@@ -144,12 +136,8 @@ def quads(layout: QuadLayout, options: MeshOptions) -> Generator[Progress, None,
 
 def _standing(mesh: QuadMesh) -> tuple[int, float]:
     """Return what to compare meshes by: how few quads are inverted, then the least corner."""
-    least = float(mesh.scaled_jacobian.min())
-    if least > UPRIGHT:
-        return 0, least
-    against = Reference(Faces.of_one_size(mesh.surface.vertices, mesh.surface.faces))
-    inverted = certify(faces_of(mesh), against).inverted
-    return -max(inverted, int((mesh.scaled_jacobian <= 0).sum())), least
+    quality = mesh.scaled_jacobian
+    return -int((quality <= 0).sum()), float(quality.min())
 
 
 def _filled(

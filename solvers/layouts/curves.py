@@ -14,7 +14,7 @@ from solvers.layouts.tracing import BORDER, Chords, Traces
 from solvers.surface.triangulation import QUARTER, FloatArray, IntArray, next_halfedge
 from solvers.surface.trisurface import TriSurface
 
-APART = 1e-10
+APART = 1e-12
 """Length of an edge along a curve at least, in that of all its edges.
 
 Chosen, above rounding: where the map is so small, two corners still have two places.
