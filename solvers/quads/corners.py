@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from solvers.features.dihedral import dihedral_angles
+from solvers.quads.incidence import CornersAround
 from solvers.surface.sectors import corner_sectors
 from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface, closest_barycentric
@@ -68,9 +69,7 @@ class TangentPlanes:
         self._normals: FloatArray = unit(np.stack(around, axis=1))[sector].reshape(-1, 3, 3)
         per_vertex = np.unique(np.stack([surface.faces.reshape(-1), sector]), axis=1)[0]
         self._split: BoolArray = np.bincount(per_vertex, minlength=surface.n_vertices) > 1
-        self._star = np.argsort(surface.faces.reshape(-1), kind="stable")
-        count = np.bincount(surface.faces.reshape(-1), minlength=surface.n_vertices)
-        self._star_start = np.concatenate([[0], np.cumsum(count)])
+        self._around = CornersAround(surface.faces, surface.n_vertices)
 
     def normals(self, faces: IntArray, weights: FloatArray, towards: FloatArray) -> FloatArray:
         """Return the unit normals (k, 3) at places, on the sides that vectors point to.
@@ -124,11 +123,8 @@ class TangentPlanes:
         if len(on_edge) + len(at_vertex) == 0:
             return faces, weights
         h, twin = edge[on_edge], self._surface.triangulation.twin[edge[on_edge]]
-        vertex = vertex[at_vertex]
-        start, count = self._star_start[vertex], np.diff(self._star_start)[vertex]
-        step = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
-        star = self._star[np.repeat(start, count) + step]
-        place = np.concatenate([np.tile(on_edge, 4), np.repeat(at_vertex, count)])
+        at, star = self._around.pairs(vertex[at_vertex])
+        place = np.concatenate([np.tile(on_edge, 4), at_vertex[at]])
         # Angles between two ways from a place, as the corners that the ways lead to: of a vertex
         # one in each triangle, of an edge two on each side, parted by the corner across.
         ends = [[1, 2], [2, 0]]

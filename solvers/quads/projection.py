@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
+from solvers.quads.incidence import CornersAround
 from solvers.surface.triangulation import FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface, closest_barycentric
 
@@ -27,10 +28,7 @@ class Projection:
     def __init__(self, surface: TriSurface) -> None:
         self._surface = surface
         self._corners = surface.vertices[surface.faces]
-        corner = surface.faces.reshape(-1)
-        self._star = np.argsort(corner, kind="stable") // 3
-        count = np.bincount(corner, minlength=surface.n_vertices)
-        self._star_start = np.concatenate([[0], np.cumsum(count)])
+        self._around_vertex = CornersAround(surface.faces, surface.n_vertices)
 
     def slide(self, faces: IntArray, places: FloatArray) -> tuple[IntArray, FloatArray]:
         """Walk from triangle to triangle as long as that leads nearer to a place.
@@ -116,11 +114,8 @@ class Projection:
         across = twin >= 0
         i = np.argmax(nonzero[~on_edge], axis=1)
         vertex = self._surface.faces[faces[~on_edge], i]
-        start = self._star_start[vertex]
-        count = self._star_start[vertex + 1] - start
-        step = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
-        star = self._star[np.repeat(start, count) + step]
+        at, star = self._around_vertex.pairs(vertex)
         return (
-            np.concatenate([points[on_edge][across], np.repeat(points[~on_edge], count)]),
-            np.concatenate([twin[across] // 3, star]),
+            np.concatenate([points[on_edge][across], points[~on_edge][at]]),
+            np.concatenate([twin[across] // 3, star // 3]),
         )

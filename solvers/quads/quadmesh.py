@@ -12,6 +12,7 @@ from scipy.sparse.csgraph import connected_components
 from solvers.errors import CrossviewError
 from solvers.frozen import freeze_arrays
 from solvers.quads.corners import TangentPlanes, scaled_jacobian
+from solvers.quads.incidence import edge_table, paired_sides
 from solvers.quads.projection import Projection
 from solvers.quads.quantization import Quantization
 from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
@@ -191,19 +192,12 @@ class QuadMesh:
     @cached_property
     def _edge_table(self) -> tuple[IntArray, IntArray]:
         """The edges (e, 2), and the edge of each side (4 q,) of the quads."""
-        ends = np.stack([self.quads, np.roll(self.quads, -1, axis=1)], axis=2).reshape(-1, 2)
-        ends.sort(axis=1)
-        key, edge_of = np.unique(ends[:, 0] * self.n_vertices + ends[:, 1], return_inverse=True)
-        edges = np.stack([key // self.n_vertices, key % self.n_vertices], axis=1)
-        return edges, edge_of.reshape(-1)
+        return edge_table(self.quads)
 
     @cached_property
     def _fan_vertex(self) -> IntArray:
         """The vertex of each fan of quads: corners joined over the edges they share."""
-        _, edge_of = self._edge_table
-        order = np.argsort(edge_of, kind="stable")
-        paired = np.flatnonzero(np.diff(edge_of[order]) == 0)
-        side, other = order[paired], order[paired + 1]
+        side, other = paired_sides(self._edge_table[1])
         after = side - side % 4 + (side + 1) % 4
         other_after = other - other % 4 + (other + 1) % 4
         corner = self.quads.reshape(-1)

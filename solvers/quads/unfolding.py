@@ -13,6 +13,7 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.optimize import minimize
 
+from solvers.quads.incidence import edge_table, paired_sides
 from solvers.quads.sliding import Places, Sliding
 from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
 
@@ -63,17 +64,18 @@ def unfold(sliding: Sliding, starts: Sequence[Places], free: IntArray, sides: Fl
     may_move = np.zeros(mesh.n_vertices, dtype=bool)
     may_move[free] = True
     wanted = graded(mesh.quads, sides)
-    best = max(starts, key=lambda start: worth(sliding.quality(start, mesh.quads)))
+    found = []
     for start in starts:
-        found = _unfolded(sliding, start, may_move, wanted)
-        best = max(best, found, key=lambda p: worth(sliding.quality(p, mesh.quads)))
-        if sliding.quality(best, mesh.quads).min() > 0:
+        found.append(_from_one(sliding, start, may_move, wanted))
+        if found[-1][0] > (0, 0.0):
             break
-    return best
+    return max(found, key=lambda one: one[0])[1]
 
 
-def _unfolded(sliding: Sliding, places: Places, may_move: BoolArray, wanted: FloatArray) -> Places:
-    """Return the best places of many steps from one start."""
+def _from_one(
+    sliding: Sliding, places: Places, may_move: BoolArray, wanted: FloatArray
+) -> tuple[tuple[int, float], Places]:
+    """Return the best places of many steps from one start, and what they are worth."""
     quads = sliding.mesh.quads
     quality = sliding.quality(places, quads)
     best, best_worth, since = places, worth(quality), 0
@@ -88,7 +90,7 @@ def _unfolded(sliding: Sliding, places: Places, may_move: BoolArray, wanted: Flo
         since += 1
         if worth(quality) > best_worth:
             best, best_worth, since = places, worth(quality), 0
-    return best
+    return best_worth, best
 
 
 def worth(quality: FloatArray) -> tuple[int, float]:
@@ -105,12 +107,8 @@ def graded(quads: IntArray, sides: FloatArray) -> FloatArray:
     sides : (2, q) float array
         Lengths of the sides from corner 0 to 1 and from 1 to 2.
     """
-    ends = np.sort(np.stack([quads, np.roll(quads, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
-    key = ends[:, 0] * (int(ends.max(initial=0)) + 1) + ends[:, 1]
-    order = np.argsort(key, kind="stable")
-    shared = np.flatnonzero(np.diff(key[order]) == 0)
+    pair = paired_sides(edge_table(quads)[1])
     # Whoever crosses a side goes along the other two of the quad.
-    pair = np.stack([order[shared], order[shared + 1]])
     first, second = (1 - pair % 2) * len(quads) + pair // 4
     least = sides.reshape(-1).copy()
     while True:

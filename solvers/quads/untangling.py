@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from solvers.quads.incidence import CornersAround
 from solvers.quads.quadmesh import QuadMesh
 from solvers.quads.sliding import Places, Sliding
 from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
@@ -47,7 +48,7 @@ def improve_worst(sliding: Sliding, places: Places, free: IntArray, floor: Float
     mesh = sliding.mesh
     may_move = np.zeros(mesh.n_vertices, dtype=bool)
     may_move[free] = True
-    around = _QuadsAround(mesh)
+    around = CornersAround(mesh.quads, mesh.n_vertices)
     quality = sliding.quality(places, mesh.quads)
     idle = 0
     for k in range(ROUNDS):
@@ -60,25 +61,9 @@ def improve_worst(sliding: Sliding, places: Places, free: IntArray, floor: Float
         tried = _tried(sliding, places, ids, around, radius, least)
         idle = idle + 1 if (tried.vertices == places.vertices).all() else 0
         places = tried
-        touched = around.pairs(ids)[1]
+        touched = around.pairs(ids)[1] // 4
         quality[touched] = sliding.quality(places, mesh.quads[touched])
     return places
-
-
-class _QuadsAround:
-    """The quads at each vertex."""
-
-    def __init__(self, mesh: QuadMesh) -> None:
-        self._quad = np.argsort(mesh.quads.reshape(-1), kind="stable") // 4
-        self._start = np.concatenate([[0], np.cumsum(mesh.valence)])
-
-    def pairs(self, ids: IntArray) -> tuple[IntArray, IntArray]:
-        """Return position in `ids` and quad, for all quads at all of these vertices in order."""
-        count = self._start[ids + 1] - self._start[ids]
-        step = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
-        return np.repeat(np.arange(len(ids)), count), self._quad[
-            np.repeat(self._start[ids], count) + step
-        ]
 
 
 def _independent(mesh: QuadMesh, wanted: BoolArray, round_: int) -> BoolArray:
@@ -94,7 +79,7 @@ def _tried(
     sliding: Sliding,
     places: Places,
     ids: IntArray,
-    around: _QuadsAround,
+    around: CornersAround,
     radius: float,
     least: FloatArray,
 ) -> Places:
@@ -103,7 +88,8 @@ def _tried(
     None after which a quad is worse than its `least`.
     """
     quads = sliding.mesh.quads
-    at, quad = around.pairs(ids)
+    at, corner = around.pairs(ids)
+    quad = corner // 4
     ring = places.vertices[quads[quad]]
     edges = np.linalg.norm(np.roll(ring, -1, axis=1) - ring, axis=2).mean(axis=1)
     size = radius * np.bincount(at, edges) / np.bincount(at)
