@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from solvers.layouts.charts import Chart
+from solvers.layouts.charts import Chart, ComplexArray
+from solvers.layouts.crossings import ends_of
 from solvers.layouts.motorcycles import Stops
 from solvers.layouts.nodes import Node
 from solvers.layouts.tracing import BORDER, Chords, Traces
@@ -39,14 +40,25 @@ class Curves:
     chords: Chords
     offsets: IntArray
 
-    def chords_at(self, curve: int, at: FloatArray) -> tuple[IntArray, FloatArray]:
-        """Return the chords at lengths along a curve, and how far along them, 0 to 1."""
-        low, high = self.offsets[curve], self.offsets[curve + 1]
-        start, end = self.chords.start[low:high], self.chords.end[low:high]
-        at = np.where(at > end[-1], at - end[-1], at)  # arcs of loops may run over their seam
-        chord = np.clip(np.searchsorted(start, at, side="right") - 1, 0, high - low - 1)
-        length = np.maximum(end[chord] - start[chord], 1e-300)
-        return low + chord, np.clip((at - start[chord]) / length, 0.0, 1.0)
+    def chords_at(self, curve: IntArray, at: FloatArray) -> tuple[IntArray, FloatArray]:
+        """Return the chords (k,) at lengths along curves, and how far along them, 0 to 1."""
+        found = np.empty(len(curve), dtype=np.int64)
+        # arcs of loops may run over their seam
+        whole = self.chords.end[self.offsets[curve + 1] - 1]
+        at = np.where(at > whole, at - whole, at)
+        for c in np.unique(curve).tolist():
+            on = curve == c
+            low, high = self.offsets[c], self.offsets[c + 1]
+            chord = np.searchsorted(self.chords.start[low:high], at[on], side="right") - 1
+            found[on] = low + np.clip(chord, 0, high - low - 1)
+        start, end = self.chords.start[found], self.chords.end[found]
+        return found, np.clip((at - start) / np.maximum(end - start, 1e-300), 0.0, 1.0)
+
+    def faces_at(self, curve: IntArray, at: FloatArray) -> tuple[IntArray, ComplexArray, IntArray]:
+        """Return the triangles (k,) at lengths along curves, places in their images, and chords."""
+        chord, part = self.chords_at(curve, at)
+        start, end = (ends[chord] for ends in ends_of(self.chart, self.chords))
+        return self.chords.face[chord], start + part * (end - start), chord
 
 
 def with_loops(traces: Traces, loops: Sequence[IntArray]) -> Curves:

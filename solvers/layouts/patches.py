@@ -113,10 +113,5 @@ def _along(arrangement: Arrangement, halfarcs: IntArray, cells: int) -> FloatArr
     start, end = arrangement.arc_span[arc].T
     beyond = places - (ends - arrangement.tmesh.lengths[arc])[on]
     at = np.where(backwards[on], end[on] - beyond, start[on] + beyond)
-    found = np.empty((3, len(on)))
-    for i in np.unique(on):
-        chosen = on == i
-        curve = int(arrangement.arc_curve[arc[i]])
-        found[:2, chosen] = arrangement.curves.chords_at(curve, at[chosen])
-    found[2] = 1 - 2 * backwards[on]
-    return found
+    chord, part = arrangement.curves.chords_at(arrangement.arc_curve[arc[on]], at)
+    return np.stack([chord, part, 1 - 2 * backwards[on]])

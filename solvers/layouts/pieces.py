@@ -53,9 +53,8 @@ def as_sides(
     for cycle in cycles:
         corners = [i for i, (_, corner) in enumerate(cycle) if corner]
         if len(corners) != 4:
-            faces = curves.chords.face[
-                [curves.chords_at(int(curve[h // 2]), span[h // 2])[0][0] for h, _ in cycle]
-            ]
+            arcs = np.array([half // 2 for half, _ in cycle])
+            faces = curves.chords.face[curves.chords_at(curve[arcs], span[arcs, 0])[0]]
             raise LayoutError(
                 f"a piece between the separatrices has {len(corners)} corners instead of four",
                 faces=curves.chart.on_surface(faces),

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from solvers.layouts.arrangement import Arrangement
-from solvers.layouts.crossings import ends_of
 from solvers.layouts.layout import QuadLayout
 from solvers.layouts.straight import barycentric_in
 from solvers.number_checks import real_number
@@ -223,14 +222,8 @@ def _polylines(layout: QuadLayout, arcs: IntArray) -> list[_Polyline]:
 def _located(layout: QuadLayout, curve: IntArray, at: FloatArray) -> tuple[IntArray, FloatArray]:
     """Return the surface's triangles (k,) and weights (k, 3) of places along curves."""
     curves = layout.arrangement.curves
-    chord, part = np.empty(len(curve), dtype=np.int64), np.empty(len(curve))
-    for c in np.unique(curve).tolist():
-        on = curve == c
-        chord[on], part[on] = curves.chords_at(c, at[on])
-    start, end = (ends[chord] for ends in ends_of(curves.chart, curves.chords))
-    face = curves.chords.face[chord]
-    weights = barycentric_in(curves.chart, face, start + part * (end - start))
-    return curves.chart.working.lift_points(face, weights)
+    face, place, _ = curves.faces_at(curve, at)
+    return curves.chart.working.lift_points(face, barycentric_in(curves.chart, face, place))
 
 
 def _of_stretch(stretch: _Stretch, polylines: Sequence[_Polyline], turn: float) -> list[Condition]:

@@ -12,7 +12,6 @@ from scipy.sparse.csgraph import connected_components
 from solvers.errors import CrossviewError
 from solvers.layouts.arrangement import Arrangement
 from solvers.layouts.charts import AXES, ComplexArray
-from solvers.layouts.crossings import ends_of
 from solvers.layouts.layout import QuadLayout
 from solvers.layouts.patches import grid_quads
 from solvers.layouts.straight import barycentric_in, walk
@@ -184,13 +183,7 @@ class _Points:
         curves = self.arrangement.curves
         chart = curves.chart
         curve, at = np.concatenate(self._curve), np.concatenate(self._at)
-        chord, part = np.empty(len(curve), dtype=np.int64), np.empty(len(curve))
-        for c in np.unique(curve):
-            on = curve == c
-            chord[on], part[on] = curves.chords_at(int(c), at[on])
-        start, end = (ends[chord] for ends in ends_of(chart, curves.chords))
-        face = curves.chords.face[chord]
-        place = start + part * (end - start)
+        face, place, chord = curves.faces_at(curve, at)
         way = np.concatenate(self._way)
         led = way != 0
         along = AXES[curves.chords.axis[chord[led]]]
