@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from crossview.certificate.faces import Bools, Faces, Floats, Ints
+from crossview.certificate.faces import Bools, Faces, Floats
 from crossview.certificate.samples import Ground, doubled
 
 FEW, MANY = 2, 6
@@ -148,40 +148,47 @@ def corner_angles(faces: Faces, triangles: Floats, ground: Ground) -> Angles:
         level = np.einsum("ij,ij->i", ahead, back) - rise
         return Angles(faces, across, level, normals)
 
-    wide, clear = _normals(faces, triangles, ground, np.arange(len(faces.corners)), FEW, None)
+    unit = _unit(doubled(triangles))
+
+    def mean(patch: Floats, n: int) -> tuple[Floats, Bools]:
+        return _mean_normals(unit, ground, patch, n)
+
+    quarter = _quarters(faces)
+    wide, clear = mean(quarter, FEW)
     degrees = measured(wide).degrees
     again = np.flatnonzero((degrees < NEAR) | (degrees > 180 - NEAR) | ~clear)
-    wide[again] = _normals(faces, triangles, ground, again, MANY, None)[0]
+    wide[again] = mean(quarter[:, again], MANY)[0]
     best = wide
     for reach in AT_ONCE:
         near = wide.copy()
-        near[again] = _normals(faces, triangles, ground, again, MANY, reach)[0]
+        near[again] = mean(_around(quarter[:, again], reach), MANY)[0]
         upright = measured(near)._sines > measured(best)._sines
         best = np.where(upright[:, None], near, best)
     return measured(best)
 
 
-def _normals(
-    faces: Faces, triangles: Floats, ground: Ground, corners: Ints, n: int, around: float | None
-) -> tuple[Floats, Bools]:
-    """Normals (k, 3) at some corners from n x n places each, and whether those agree.
-
-    Places are under the quarter of the face, or so far around the corner in its half sides.
-    """
+def _quarters(faces: Faces) -> Floats:
+    """The quarter of a face at each corner (4, c, 3): corner, middles of sides and of the face."""
     places = faces.points[faces.corners]
-    here, middle = places[corners], faces.middles[faces.owner[corners]]
-    sides = [(here + places[at[corners]]) / 2 for at in (faces.following, faces.before)]
-    quarter = np.stack([here, sides[0], middle, sides[1]])
-    if around is not None:
-        ways = around * (np.stack(sides) - here)
-        turns = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
-        quarter = here + np.stack([a * ways[0] + b * ways[1] for a, b in turns])
+    on, back = ((places + places[at]) / 2 for at in (faces.following, faces.before))
+    return np.stack([places, on, faces.middles[faces.owner], back])
+
+
+def _around(quarter: Floats, reach: float) -> Floats:
+    """A patch (4, k, 3) all around the corners of quarters, so far as part of their sides."""
+    here, on, _, back = quarter
+    ways = reach * (on - here), reach * (back - here)
+    turns = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+    return np.asarray(here + np.stack([a * ways[0] + b * ways[1] for a, b in turns]))
+
+
+def _mean_normals(unit: Floats, ground: Ground, patch: Floats, n: int) -> tuple[Floats, Bools]:
+    """Mean normals (k, 3) under n x n places of each patch (4, k, 3), and whether they agree."""
     step = (np.arange(n) + 0.5) / n
     s, t = np.repeat(step, n), np.tile(step, n)
     weights = np.stack([(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t])
-    unit = _unit(doubled(triangles))
-    under = ground.under(np.einsum("qp,qkx->kpx", weights, quarter).reshape(-1, 3))
-    mean = unit[under].reshape(len(corners), n * n, 3).mean(axis=1)
+    under = ground.under(np.einsum("qp,qkx->kpx", weights, patch).reshape(-1, 3))
+    mean = unit[under].reshape(patch.shape[1], n * n, 3).mean(axis=1)
     return _unit(mean), np.asarray(np.linalg.norm(mean, axis=1) > AGREEING)
 
 

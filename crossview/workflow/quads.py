@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Generator, Iterable
+from collections.abc import Generator, Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -121,34 +121,28 @@ def quads(layout: QuadLayout, options: MeshOptions) -> Generator[Progress, None,
     """
     number = options.number_on(layout.surface)
     require_closing(layout.integrated.field.singularities)
+    bends = bending_conditions(layout, options.max_chord)
+    each = [Condition(np.array([arc]), 1) for arc in range(layout.tmesh.n_arcs)]
     tried: list[QuadMesh] = []
     for share, vanish in TRIALS:
         begun = len(tried) / len(TRIALS)
-        made = _filled(layout, options, round(share * number), vanish)
+        conditions = bends if vanish else bends + each
+        made = _filled(layout, options, max(1, round(share * number)), conditions)
         tried.append((yield from between(made, begun, begun + 1 / len(TRIALS))))
-        if not options.smooth or _standing(tried[-1])[0] == 0:
+        if not options.smooth or tried[-1].worth[0] == 0:
             break
-    best = max(tried, key=_standing)
+    best = max(tried, key=lambda mesh: mesh.worth)
     best.check()
     chosen = best.quantization
     return replace(best, quantization=chosen and replace(chosen, n_wanted=number))
 
 
-def _standing(mesh: QuadMesh) -> tuple[int, float]:
-    """Return what to compare meshes by: how few quads are inverted, then the least corner."""
-    quality = mesh.scaled_jacobian
-    return -int((quality <= 0).sum()), float(quality.min())
-
-
 def _filled(
-    layout: QuadLayout, options: MeshOptions, number: int, vanish: bool
+    layout: QuadLayout, options: MeshOptions, number: int, conditions: Sequence[Condition]
 ) -> Generator[Progress, None, QuadMesh]:
-    """Fill a layout with about so many quads; arcs may vanish, or each has one edge at least."""
+    """Fill a layout with about so many quads, whose numbers along arcs meet conditions."""
     yield Progress("choosing numbers of quads", 0.0)
-    bends = bending_conditions(layout, options.max_chord)
-    if not vanish:
-        bends = [*bends, *(Condition(np.array([arc]), 1) for arc in range(layout.tmesh.n_arcs))]
-    chosen = quantize_to(layout.tmesh, max(1, number), conditions=bends)
+    chosen = quantize_to(layout.tmesh, number, conditions=conditions)
     yield Progress("filling the patches", 0.3)
     spacing = bent_spacing(layout, chosen.counts, options.max_chord)
     filled = replace(fill(layout, chosen.counts, spacing), quantization=chosen)

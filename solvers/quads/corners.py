@@ -222,6 +222,11 @@ def scaled_jacobian(corners: FloatArray, normals: FloatArray) -> FloatArray:
     return np.asarray(corner_sines(corners, normals).min(axis=-1))
 
 
+def worth(quality: FloatArray) -> tuple[int, float]:
+    """Return what to compare meshes by: how few quads are inverted, then the least quality."""
+    return -int((quality <= 0).sum()), float(quality.min(initial=1.0))
+
+
 def unit(vectors: FloatArray) -> FloatArray:
     """Return vectors (..., 3) of length 1 in the same directions; 0 stays 0."""
     return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=-1), 1e-300)[..., None])

@@ -11,7 +11,7 @@ from scipy.sparse.csgraph import connected_components
 
 from solvers.errors import CrossviewError
 from solvers.frozen import freeze_arrays
-from solvers.quads.corners import TangentPlanes, scaled_jacobian
+from solvers.quads.corners import TangentPlanes, scaled_jacobian, worth
 from solvers.quads.incidence import edge_table, paired_sides
 from solvers.quads.projection import Projection
 from solvers.quads.quantization import Quantization
@@ -130,6 +130,11 @@ class QuadMesh:
         planes = TangentPlanes(self.surface)
         normals = planes.corner_normals(self.faces, self.barycentric, self.vertices, self.quads)
         return scaled_jacobian(self.vertices[self.quads], normals)
+
+    @property
+    def worth(self) -> tuple[int, float]:
+        """Number of inverted quads, negative, and the least quality, to compare meshes by."""
+        return worth(self.scaled_jacobian)
 
     @cached_property
     def max_distance_to_surface(self) -> float:

@@ -17,11 +17,11 @@ import numpy as np
 
 from solvers.kind_checks import one_of_kind
 from solvers.number_checks import whole_number
-from solvers.quads.corners import unit
+from solvers.quads.corners import unit, worth
 from solvers.quads.quadmesh import QuadMesh
 from solvers.quads.rails import Rail, boundary_rails
 from solvers.quads.sliding import SAME_PLACE, Places, Sliding
-from solvers.quads.unfolding import ENOUGH, unfold, worth
+from solvers.quads.unfolding import ENOUGH, unfold
 from solvers.quads.untangling import POOR, improve_worst
 from solvers.surface.triangulation import FloatArray, IntArray
 
@@ -133,10 +133,8 @@ def _unfolded(sliding: Sliding, start: Places, found: Places, rounds: int) -> Pl
     least, floor = quality.min(), np.minimum(quality, GOOD)
 
     def better(found: Places, tried: Places) -> Places:
-        spoilt = sliding.quality(tried, quads).min() < least
-        return max(
-            found, found if spoilt else tried, key=lambda p: worth(sliding.quality(p, quads))
-        )
+        now, then = (worth(sliding.quality(places, quads)) for places in (found, tried))
+        return tried if then > now and then[1] >= least else found
 
     # Some unfold only if they may fold further on the way, if need be not beyond the worst.
     inverted = (sliding.quality(found, quads) <= 0).any()

@@ -13,6 +13,7 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.optimize import minimize
 
+from solvers.quads.corners import worth
 from solvers.quads.incidence import edge_table, paired_sides
 from solvers.quads.sliding import Places, Sliding
 from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
@@ -91,11 +92,6 @@ def _from_one(
         if worth(quality) > best_worth:
             best, best_worth, since = places, worth(quality), 0
     return best_worth, best
-
-
-def worth(quality: FloatArray) -> tuple[int, float]:
-    """Return what to compare meshes by: how few quads are inverted, then the least quality."""
-    return -int((quality <= 0).sum()), float(quality.min(initial=1.0))
 
 
 def graded(quads: IntArray, sides: FloatArray) -> FloatArray:
