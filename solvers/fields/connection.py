@@ -32,6 +32,12 @@ CLEARANCE = 1e-6
 Chosen, above what rounding makes of angles. A point with two weights below is on the vertex.
 """
 
+ASIDE = 1e-9
+"""Distance from a triangle's barycentre of the place that stands for it, in parts of the triangle.
+
+Chosen, above rounding.
+"""
+
 
 @dataclass(frozen=True)
 class Condition:
@@ -274,9 +280,14 @@ class Discretization:
 
     @cached_property
     def barycentres(self) -> Located:
-        """Where the barycentre and frame of each triangle of the surface lie."""
-        centres = self.surface.triangulation.corner_positions.mean(axis=1)
-        return self.working.locate(np.arange(self.surface.n_faces), centres)
+        """Where the barycentre and frame of each triangle of the surface lie.
+
+        Just beside it: a triangle that was halved has its barycentre on the cut, and rounding would
+        choose the side.
+        """
+        faces = np.arange(self.surface.n_faces)
+        weights = np.tile(1 / 3 + ASIDE * np.array([0.0, 1.0, -1.0]), (len(faces), 1))
+        return self.working.locate(faces, self.surface.triangulation.places(faces, weights))
 
     def walk(self, offsets: FloatArray) -> FloatArray:
         """Carry the cross from the reference to every triangle.

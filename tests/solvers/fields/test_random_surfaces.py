@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 from solvers.algebra.operators import midpoint_offsets, stiffness
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.fields.least_squares import least_squares_theta
+from solvers.primitives import cylinder
 from solvers.singularities.budget import Singularity, default_corners, index_budget
 from solvers.surface.points import SurfacePoint
 from solvers.surface.triangulation import wrap
@@ -77,6 +78,21 @@ def test_moved_and_scaled_a_surface_has_the_same_field(
     between = np.einsum("ij,ij->i", other.u, field.u @ turn.T)
     off = np.arccos(np.clip(between, -1.0, 1.0))
     if surface.boundary_loops:
+        assert np.abs(wrap(off, QUARTER)).max() < 1e-6
+
+
+def test_a_triangle_that_was_halved_has_the_same_cross_whichever_way_it_lies() -> None:
+    """Its barycentre is on the cut, and rounding would choose the side."""
+    stretched = cylinder(n=16).vertices * [2.0, 0.5, 1.0]
+    surface = TriSurface(stretched, cylinder(n=16).faces)
+    field = IsotropicSolver(surface).solve([])
+    rng = np.random.default_rng(0)
+    for _ in range(4):
+        turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+        turn *= np.sign(np.linalg.det(turn))
+        other = IsotropicSolver(TriSurface(stretched @ turn.T, surface.faces)).solve([])
+        between = np.einsum("ij,ij->i", other.u, field.u @ turn.T)
+        off = np.arccos(np.clip(between, -1.0, 1.0))
         assert np.abs(wrap(off, QUARTER)).max() < 1e-6
 
 
