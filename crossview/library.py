@@ -1,9 +1,9 @@
 """The verbs of the command line and of the window as functions, for scripts.
 
 Each takes and returns values that nothing changes afterwards: `read` makes a `Problem`, `natural`,
-`complete`, `make_valid` and `improve` make others of it, `solve` a `Solution`, `layout` a
-`QuadLayout`, `quads` a `QuadMesh`. What takes long calls `progress`, if it is given, with each
-`solvers.Progress`.
+`complete`, `make_valid`, `improve` and `simplify` make others of it, `solve` a `Solution`,
+`layout` a `QuadLayout`, `quads` a `QuadMesh`. What takes long calls `progress`, if it is given,
+with each `solvers.Progress`.
 """
 
 from __future__ import annotations
@@ -296,6 +296,48 @@ def improve(problem: Problem, *, progress: Watch = None) -> Problem:
     """
     _require("problem", problem, Problem)
     return run(configurations.improve(problem), progress)[0]
+
+
+def simplify(
+    problem: Problem, most: int, *, most_valence: int = MOST_VALENCE, progress: Watch = None
+) -> Problem:
+    """Merge unlocked singularities, those of least worth first, and make what is left valid.
+
+    Parameters
+    ----------
+    problem : Problem
+        Whose index budget holds.
+    most : int
+        How many singularities may be left.
+    most_valence : int, optional
+        Of a singularity that others are merged to.
+    progress : callable, optional
+        Called with each step.
+
+    Returns
+    -------
+    Problem
+        The same with fewer singularities; none were merged across its features.
+
+    Raises
+    ------
+    SingularityError
+        So few cannot be left, or they cannot be made valid.
+
+    Examples
+    --------
+    A torus needs no singularities, and the natural ones are not that few:
+
+    >>> import crossview
+    >>> torus = crossview.natural(crossview.Problem(crossview.primitives.torus(n=24)))
+    >>> fewer = crossview.simplify(torus, 4)
+    >>> len(torus.singularities), len(fewer.singularities)
+    (12, 4)
+    >>> crossview.solve(fewer).valid
+    True
+    """
+    _require("problem", problem, Problem)
+    return run(configurations.simplify(problem, most, most_valence=most_valence), progress)[0]
 
 
 def solve(problem: Problem, method: str | None = None, *, progress: Watch = None) -> Solution:

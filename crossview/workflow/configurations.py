@@ -22,6 +22,7 @@ from solvers.singularities import require_budget
 from solvers.validity import Improved, Moved, missing_singularities
 from solvers.validity import improve as moved_to_even_sizes
 from solvers.validity import make_valid as moved_to_validity
+from solvers.validity import simplify as merged_to_fewer
 
 Placing = Generator[Progress, None, Problem]
 
@@ -126,5 +127,39 @@ def improve(problem: Problem) -> Generator[Progress, None, tuple[Problem, Improv
         problem.corners,
         problem.options.refine,
         wanted=wanted if wanted is None or wanted.ndim == 1 else np.sqrt(wanted.prod(axis=1)),
+    )
+    return replace(problem, singularities=end.singularities), end
+
+
+def simplify(
+    problem: Problem, most: int, *, most_valence: int = MOST_VALENCE
+) -> Generator[Progress, None, tuple[Problem, Moved]]:
+    """Merge unlocked singularities until no more than some are left, and make those valid.
+
+    Parameters
+    ----------
+    problem : Problem
+    most, most_valence
+        As of `solvers.validity.simplify`.
+
+    Returns
+    -------
+    Problem
+    Moved
+        The last step of the way to validity.
+
+    Raises
+    ------
+    SingularityError
+        As `solvers.validity.simplify`.
+    """
+    end = yield from merged_to_fewer(
+        problem.surface,
+        problem.singularities,
+        most,
+        problem.corners,
+        problem.options.refine,
+        features=problem.features,
+        most_valence=most_valence,
     )
     return replace(problem, singularities=end.singularities), end

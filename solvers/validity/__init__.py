@@ -7,6 +7,7 @@ from solvers.validity.completion import MOST_PLACED, missing_singularities
 from solvers.validity.guide import Guide, LevelLines
 from solvers.validity.improvement import Improved, improve
 from solvers.validity.search import Moved
+from solvers.validity.simplification import simplify
 from solvers.validity.unevenness import Sizes, Unevenness
 
 __all__ = [
@@ -22,4 +23,5 @@ __all__ = [
     "improve",
     "make_valid",
     "missing_singularities",
+    "simplify",
 ]
