@@ -147,8 +147,12 @@ class Hand:
         QApplication.processEvents()
 
     def picture(self) -> np.ndarray:
-        """What the viewport shows, (height, width, 3) uint8."""
+        """What the viewport shows, (height, width, 3) uint8, in the colours that are drawn.
+
+        Whether it has rested for long enough to be smoothed does not matter.
+        """
         QApplication.processEvents()
+        self.window.viewport.scene.smooth(False)
         image = self.canvas.grabFramebuffer().convertToFormat(
             self.canvas.grabFramebuffer().Format.Format_RGB888
         )

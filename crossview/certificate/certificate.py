@@ -30,7 +30,7 @@ class Certificate:
     measures : dict
         JSON values; lengths in the surface's unit, angles in degrees.
     faults : tuple of Fault
-        What is wrong; none if all is right.
+        What is wrong, the gravest first; none if all is right.
 
     Examples
     --------
@@ -41,7 +41,7 @@ class Certificate:
     >>> certify(Faces.of_one_size(corners, [[0, 1, 2, 3]]), surface).right
     True
     >>> print(certify(Faces.of_one_size(corners, [[0, 2, 1, 3]]), surface).faults[0])
-    1 face with a corner of 180 degrees or more, the first at (0.5, 0.5, 0)
+    1 inverted face with a corner of 180 degrees or more, the first at (0.5, 0.5, 0)
     """
 
     measures: Measures
@@ -132,7 +132,7 @@ def _corner_faults(angles: Angles) -> list[Fault]:
     """Inverted faces, and pieces that are inside out."""
     inverted = np.unique(angles.faces.owner[angles.inverted])
     said, middles = "with a corner of 180 degrees or more", angles.faces.middles
-    faults = [*first("inverted", "face", said, middles[inverted])]
+    faults = [*first("inverted", "inverted face", said, middles[inverted])]
     if angles.inside_out:
         faults.append(Fault("inside out", "the mesh is oriented against the surface"))
     return faults

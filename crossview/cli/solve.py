@@ -102,7 +102,7 @@ def _complain(result: Result, component: int | None, allowed: bool) -> None:
     where = "" if component is None else f"component {component}: "
     done = "written as allowed" if allowed else "no quads are written, all else is"
     advice = "" if allowed else ": try another number of quads, or add --allow-inverted"
-    complain(f"crossview: {where}inverted quads, {fault}; {done}{advice}")
+    complain(f"crossview: {where}{fault}; {done}{advice}")
 
 
 def _formats(text: str | None, quads: bool) -> Sequence[str]:

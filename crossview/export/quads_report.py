@@ -7,14 +7,11 @@ from typing import Any
 import numpy as np
 
 from crossview.certificate import Certificate
-from crossview.workflow.certification import certified
+from crossview.workflow.certification import certified, verdict
 from crossview.workflow.pipeline import Solution
 from solvers.errors import counted
 from solvers.layouts import QuadLayout
 from solvers.quads import QuadMesh
-
-TOLD = ("inverted", "count")
-"""Kinds of faults that the line tells in its own words."""
 
 
 def quads_report(solution: Solution, mesh: QuadMesh, delivered: bool = True) -> dict[str, Any]:
@@ -41,7 +38,8 @@ def quads_report(solution: Solution, mesh: QuadMesh, delivered: bool = True) -> 
 
 
 def quads_summary(solution: Solution, layout: QuadLayout, quads: QuadMesh) -> str:
-    """Counts and quality of the quads and their layout, in one line, and what is wrong."""
+    """Counts and quality of the quads and their layout, in one line, and what is found wrong."""
+    certificate = certified(solution, quads)
     quality, irregular = quads.scaled_jacobian, sum(quads.irregular.values())
     patches = f"{layout.patches} {'patch' if layout.patches == 1 else 'patches'}, "
     patches += "conforming" if layout.conforming else f"{len(layout.t_junctions)} T-junctions"
@@ -49,7 +47,7 @@ def quads_summary(solution: Solution, layout: QuadLayout, quads: QuadMesh) -> st
         f"{quads.n_quads} quads{_missed(quads)} in {patches}; "
         f"{counted(irregular, 'irregular vertex')}, "
         f"scaled Jacobian at least {quality.min():.2f}, mean {quality.mean():.3f}"
-        f"{_faults(certified(solution, quads))}"
+        f"{_excused(certificate)}; {verdict(certificate)}"
     )
 
 
@@ -62,12 +60,9 @@ def _missed(quads: QuadMesh) -> str:
     return f" ({chosen.n_wanted} wanted{least})"
 
 
-def _faults(certificate: Certificate) -> str:
-    """What the certificate finds; nothing helps where two quads share 360 degrees."""
-    said, wide = "", certificate.measures["corners"]["excused_at_valence_2"]
-    if certificate.inverted:
-        said += f"; {counted(certificate.inverted, 'quad')} inverted: try more quads"
-    if wide:
-        said += f"; {wide} have a corner of 180 degrees or more, as those around a valence 2 do"
-    others = [str(fault) for fault in certificate.faults if fault.kind not in TOLD]
-    return "; ".join([said, *others])
+def _excused(certificate: Certificate) -> str:
+    """How many vertices are excused where two quads share 360 degrees: nothing helps there."""
+    wide = certificate.measures["corners"]["excused_at_valence_2"]
+    if not wide:
+        return ""
+    return f"; {wide} have a corner of 180 degrees or more, as those around a valence 2 do"

@@ -13,7 +13,7 @@ from crossview.certificate import Certificate, Faces, Irregular, Reference, Size
 from crossview.io import read_polygons
 from crossview.workflow.problem import Problem
 from crossview.workflow.solution import Solution
-from solvers.errors import CrossviewError
+from solvers.errors import CrossviewError, counted
 from solvers.features import Features
 from solvers.quads import QuadMesh
 from solvers.surface import FloatArray
@@ -66,6 +66,15 @@ def reference(problems: Sequence[Problem], imposed: bool, wanted: int | None = N
     )
 
 
+ADVICE = {
+    "inverted": "try another number of quads",
+    "surface": "try more quads",
+    "boundary": "try more quads",
+    "features": "try more quads",
+    "area": "try more quads",
+}
+"""What helps against kinds of faults."""
+
 _GIVEN: WeakKeyDictionary[QuadMesh, Certificate] = WeakKeyDictionary()
 """Certificates of meshes that still are: report and summary ask one after the other."""
 
@@ -82,6 +91,19 @@ def certified(solution: Solution, mesh: QuadMesh) -> Certificate:
     if mesh not in _GIVEN:
         _GIVEN[mesh] = _certified(solution, mesh)
     return _GIVEN[mesh]
+
+
+def verdict(certificate: Certificate) -> str:
+    """What the certificate of a solution's quads says, in one line: that all is right, or what not.
+
+    The same words stand in the window and in the summary.
+    """
+    if certificate.right:
+        return "all quads, irregular exactly where imposed, the surface covered"
+    worst, *others = certificate.faults
+    more = f" (and {counted(len(others), 'more fault')})" if others else ""
+    advice = f": {ADVICE[worst.kind]}" if worst.kind in ADVICE else ""
+    return f"{worst}{more}{advice}"
 
 
 def _certified(solution: Solution, mesh: QuadMesh) -> Certificate:

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 import pyvista as pv
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QApplication, QPushButton
+from PySide6.QtWidgets import QApplication, QLabel, QPushButton
 
 from crossview.cases.gallery import path_of
 from crossview.cases.model import Case
-from crossview.gui.panels.quads import COUNT, LENGTH, NOTHING, STALE
+from crossview.gui.panels.quads import COUNT, LENGTH, NOTHING, STALE, QuadsPanel
 from crossview.session.state import SessionState
-from crossview.view.colors import CROSS, MARK_WARNING, PATCHES, QUAD_EDGE, valence_color
+from crossview.view.colors import BAD, CROSS, GOOD, MARK_WARNING, PATCHES, QUAD_EDGE, valence_color
 from tests.windowing import Hand, count_color
 
 BLUE = valence_color(3)
@@ -32,6 +32,12 @@ def offer(hand: Hand, label: str) -> QPushButton:
     """The button of the message bar with this label."""
     buttons = hand.window.centre.message_bar.action_buttons
     return next(button for button in buttons if button.text() == label)
+
+
+def mark(panel: QuadsPanel) -> str:
+    """The colour of the dot beside what is said of the quads."""
+    dot = panel.findChild(QLabel, "dot").pixmap().toImage()
+    return dot.pixelColor(dot.rect().center()).name()
 
 
 def quads_of(path: Path) -> tuple[int, np.ndarray]:
@@ -77,7 +83,8 @@ def test_sphere_to_six_patches_to_quads_to_a_file(hand: Hand, tmp_path: Path) ->
     assert panel.facts["Euler"].text() == "2 of 2"
     assert panel.facts["Patches"].text() == "6, conforming"
     assert panel.facts["T-junctions"].text() == "0"
-    assert panel.said.text() == "All quads, irregular exactly where imposed."
+    assert panel.said.text().startswith("All quads, irregular exactly where imposed")
+    assert mark(panel) == GOOD
     assert panel.histogram.counts.sum() == quads.n_quads
     assert panel.verticalScrollBar().isVisibleTo(panel)
     assert panel.widget().width() <= panel.viewport().width()
@@ -103,6 +110,17 @@ def test_sphere_to_six_patches_to_quads_to_a_file(hand: Hand, tmp_path: Path) ->
     box.activated.emit(1)
     assert hand.state.layers["quads"].coloring == "patch"
     assert sum(count_color(hand.picture(), color) > 100 for color in PATCHES) >= 2
+
+
+def test_the_mark_is_green_only_if_nothing_is_wrong(hand: Hand) -> None:
+    # irregular as imposed and none inverted, but a cube in place of a sphere
+    hand.open("sphere-cube")
+    panel = hand.window.quads_panel
+    panel.count_box.setValue(6)
+    hand.trigger("mesh")
+    hand.wait(lambda: hand.state.made.quads is not None)
+    assert mark(panel) == BAD
+    assert panel.said.text().startswith("The area is 0.")
 
 
 def test_quads_of_an_edge_length(hand: Hand) -> None:
@@ -289,7 +307,8 @@ def test_inverted_quads_are_saved_only_when_that_is_allowed(hand: Hand, tmp_path
     panel.count_box.setValue(200)
     hand.trigger("mesh")
     hand.wait(lambda: hand.state.made.quads is not None)
-    assert panel.said.text().startswith("1 quad inverted")
+    assert panel.said.text().startswith("1 inverted face")
+    assert mark(panel) == BAD
     hand.window.files.save_quads(tmp_path / "quads.obj")
     assert "not saved: 1 quad inverted" in hand.said
     assert not (tmp_path / "quads.obj").exists()

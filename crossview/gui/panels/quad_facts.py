@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from crossview.certificate import Certificate
 from crossview.view.texts import MINUS, count, grouped
+from crossview.workflow.certification import verdict
 from crossview.workflow.pipeline import Solution
 from solvers.layouts import QuadLayout
 from solvers.quads import QuadMesh
@@ -43,16 +44,8 @@ def quad_facts(
     corners = Counter(2 - k for k in solution.problem.chosen_corners.values() if k != 0)
     quality = mesh.scaled_jacobian
     worst = float(quality.min())
-    folded = certificate.inverted
     euler = solution.surface.euler_characteristic
-    as_imposed = mesh.irregular == dict(wanted) and mesh.corners == dict(corners)
-    good = as_imposed and not folded and mesh.euler_characteristic == euler
-    if folded:
-        verdict = f"{count(folded, 'quad')} inverted; try another number of quads, or smoothing."
-    elif not as_imposed:
-        verdict = "The irregular vertices are not those imposed."
-    else:
-        verdict = "All quads, irregular exactly where imposed."
+    said = verdict(certificate)
     rows = {
         "Vertices": grouped(mesh.n_vertices),
         "Quads": _number(mesh),
@@ -64,7 +57,7 @@ def quad_facts(
         "T-junctions": grouped(len(layout.t_junctions)),
         "Flips": grouped(layout.inverted) + (f", {layout.mended} mended" if layout.mended else ""),
     }
-    return QuadFacts(good, verdict, rows)
+    return QuadFacts(certificate.right, f"{said[0].upper()}{said[1:]}.", rows)
 
 
 def _number(mesh: QuadMesh) -> str:

@@ -89,6 +89,7 @@ class QuadsPanel(QScrollArea):
         self.save_button = QToolButton()
         self.save_button.setDefaultAction(save)
         self._dot, self.said = QLabel(), QLabel(NOTHING)
+        self._dot.setObjectName("dot")
         self.said.setWordWrap(True)
         self.said.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.facts: dict[str, QLabel] = {}

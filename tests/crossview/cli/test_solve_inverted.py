@@ -23,7 +23,7 @@ def told(ran: Ran) -> str:
     """The one line on what is inverted."""
     assert ran.status == 1
     assert ran.err.count("\n") == 1
-    assert "1 face with a corner of 180 degrees or more, the first at (" in ran.err
+    assert "1 inverted face with a corner of 180 degrees or more, the first at (" in ran.err
     return ran.err
 
 
@@ -38,7 +38,7 @@ def test_inverted_quads_are_not_delivered_and_nothing_else_is_lost(
     ran = crossview("solve", spoiled, *options)
     assert "no quads are written" in told(ran)
     assert "--allow-inverted" in ran.err
-    assert "1 quad inverted" in ran.out
+    assert "1 inverted face" in ran.out
     assert {"report.json", "surface.vtp", "crosses.vtp", "layout.vtp"} <= names(tmp_path / "out")
     assert not {name for name in names(tmp_path / "out") if name.startswith("quads")}
     report = json.loads((tmp_path / "out" / "report.json").read_text())
@@ -52,7 +52,7 @@ def test_inverted_quads_that_are_asked_for_are_told(
     options = ["-o", tmp_path / "out", "--quads", "--target-quads", "200", "--allow-inverted"]
     ran = crossview("solve", spoiled, *options)
     assert "written as allowed" in told(ran)
-    assert "1 quad inverted" in ran.out
+    assert "1 inverted face" in ran.out
     assert {"quads.vtk", "quads.obj"} <= names(tmp_path / "out")
     report = json.loads((tmp_path / "out" / "report.json").read_text())
     assert report["quads"]["delivered"]

@@ -12,6 +12,8 @@ import pytest
 
 import crossview as library
 from crossview.export.quads_report import quads_report, quads_summary
+from crossview.gui.panels.quad_facts import quad_facts
+from crossview.workflow.certification import certified
 from tests.command_line import Crossview
 
 
@@ -64,4 +66,21 @@ def test_an_inverted_quad_is_told() -> None:
     vertices[inner] += 0.6 * (mesh.vertices[across] - vertices[inner])
     spoiled = replace(mesh, vertices=vertices)
     assert quads_report(solution, spoiled)["inverted"] >= 1
-    assert "inverted: try more quads" in quads_summary(solution, layout, spoiled)
+    told = quads_summary(solution, layout, spoiled)
+    assert "inverted face" in told
+    assert told.endswith("try another number of quads")
+
+
+def test_a_mesh_that_cuts_the_surface_off_is_told_wrong_in_summary_panel_and_report() -> None:
+    # a sphere of one quad to each side of a cube: 44 % of its area
+    solution = library.solve(library.read("sphere-cube"))
+    layout = library.layout(solution)
+    mesh = library.quads(layout, 6)
+    certificate = certified(solution, mesh)
+    (fault,) = certificate.faults
+    assert fault.kind == "area"
+    assert str(fault) in quads_summary(solution, layout, mesh)
+    facts = quad_facts(layout, mesh, solution, certificate)
+    assert not facts.good
+    assert str(fault)[1:] in facts.verdict
+    assert not quads_report(solution, mesh)["certificate"]["right"]

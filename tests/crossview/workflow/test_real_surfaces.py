@@ -109,6 +109,6 @@ def test_on_a_hard_surface_an_inverted_quad_is_told_and_none_is_written(
     assert quads["inverted"] < 0.001 * quads["quads"]
     spoilt = quads["inverted"] > 0
     assert ran.status == int(spoilt)
-    assert ("inverted quads" in ran.err) == spoilt
+    assert ("inverted face" in ran.err) == spoilt
     assert (tmp_path / "out" / "quads.vtk").exists() != spoilt
     assert (tmp_path / "out" / "report.json").exists()
