@@ -13,6 +13,7 @@ from crossview.session.commands import METHOD_LABELS
 from crossview.session.hand import OWN_TOOLS, SelectTool
 from crossview.session.state import SessionState
 from crossview.session.waypoints import NATURAL_LABELS
+from crossview.view.scalars import SURFACE_SCALARS
 
 
 def _locked(state: SessionState) -> bool:
@@ -170,6 +171,7 @@ def _views() -> tuple[ActionSpec, ...]:
             (f"Ctrl+{key}",),
             tip="Fill the window with the whole surface, seen from there",
             enabled=_open,
+            submenu="Look",
         )
         for key, (direction, text) in enumerate(views, start=1)
     )
@@ -179,11 +181,13 @@ def _layers() -> tuple[ActionSpec, ...]:
     return tuple(
         ActionSpec(
             f"layer-{kind.name}",
-            f"Show {kind.label if len(kind.label.split()[0]) < 3 else kind.label.lower()}",
+            kind.label,
             "View",
             lambda w, name=kind.name: w.session.looks.toggle_layer(name),  # type: ignore[misc]
+            tip=kind.tip,
             checked=lambda s, name=kind.name: s.layers[name].visible,  # type: ignore[misc]
             separated=kind is LAYERS[0],
+            submenu="Colour by" if kind.name in SURFACE_SCALARS else "Layers",
         )
         for kind in LAYERS
     )
@@ -389,7 +393,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ),
     ActionSpec(
         "reset-docks", "Reset panels", "View", lambda w: w.reset_docks(),
-        tip="Put all panels back to where they stand at first",
+        tip="Put all panels back to where they stand at first", submenu="Panels",
     ),
     ActionSpec(
         "palette", "Command palette…", "Help", lambda w: w.show_palette(), ("Ctrl+Shift+P",),

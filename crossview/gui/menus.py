@@ -16,8 +16,8 @@ from crossview.gui.action_table import ACTIONS
 from crossview.gui.recent import forget_all, recent
 from crossview.session.hand import OWN_TOOLS
 
-SEARCHED = ("Natural singularities", "Mirror", "Rotate")
-"""Submenus whose actions are in the palette: the others repeat some."""
+REPEATED = ("Open recent", "Method")
+"""Submenus that are not in the palette: their actions are elsewhere, or no verbs."""
 MENUS = ("File", "Edit", "Surface", "Singularities", "Solve", "View", "Gallery", "Help")
 """Titles of the menus, from the left."""
 
@@ -72,11 +72,11 @@ class Menus:
         return self._menus[title]
 
     def titled_actions(self) -> list[tuple[str, QAction]]:
-        """Return every action there is with its menu in its title, for the palette."""
+        """Return every action there is with its menus in its title, for the palette."""
         return [
             (f"{title}: {action.text().replace('&', '').rstrip('…')}", action)
-            for title, menu in self._menus.items()
-            for action in _leaves(menu)
+            for name, menu in self._menus.items()
+            for title, action in _leaves(menu, name)
         ]
 
     def show_recent(self) -> None:
@@ -109,9 +109,11 @@ class Menus:
         for method in METHODS:
             methods.addAction(self._actions[f"method-{method}"])
         view.insertMenu(self._actions["fit"], methods)
-        view.addSeparator()
+        shown = self._submenu(view, "Panels")
+        before = shown.actions()[0]
         for action in panels:
-            view.addAction(action)
+            shown.insertAction(before, action)
+        shown.insertSeparator(before)
 
     def _submenu(self, menu: QMenu, title: str) -> QMenu:
         """Return the submenu of this title, added if it is not there yet."""
@@ -127,13 +129,14 @@ class Menus:
         return action
 
 
-def _leaves(menu: QMenu) -> list[QAction]:
-    """Return the actions of a menu and of the submenus that its own actions fill."""
+def _leaves(menu: QMenu, title: str) -> list[tuple[str, QAction]]:
+    """Return the actions of a menu and its submenus, each with the titles of what it is in."""
     found = []
     for action in menu.actions():
         inner = action.menu()
-        if isinstance(inner, QMenu) and inner.title() in SEARCHED:
-            found += _leaves(inner)
-        elif inner is None and not action.isSeparator():
-            found.append(action)
+        if isinstance(inner, QMenu):
+            if inner.title() not in REPEATED:
+                found += _leaves(inner, f"{title}: {inner.title()}")
+        elif not action.isSeparator():
+            found.append((title, action))
     return found

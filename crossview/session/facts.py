@@ -218,6 +218,17 @@ class Facts:
         return self.meshes if self.meshes.of is self.field else NO_MESHES
 
     @property
+    def covered(self) -> frozenset[str]:
+        """The visible layers that nothing is seen of, under a quad mesh or layout."""
+        if self.made.quads is not None and self.layers["quads"].visible:
+            hidden: tuple[str, ...] = ("surface", "layout", "crosses")
+        elif self.made.layout is not None and self.layers["layout"].visible:
+            hidden = ("surface",)
+        else:
+            hidden = ()
+        return frozenset(name for name in hidden if self.layers[name].visible)
+
+    @property
     def separatrices(self) -> Separatrices | None:
         """The separatrices to draw; in a drag they may be a moment behind the field."""
         dragged = self.trial is not None and self.trial.drag and self.field is not None

@@ -61,10 +61,11 @@ class LayerSettings:
 
 @dataclass(frozen=True)
 class LayerKind:
-    """A layer's name (as on the command line), its label, and the settings it listens to."""
+    """A layer's name (as on the command line), its label, what it shows, and what it listens to."""
 
     name: str
     label: str
+    tip: str
     settings: tuple[str, ...] = ()
     visible: bool = True
     edges: bool = False
@@ -74,33 +75,56 @@ class LayerKind:
         return LayerSettings(visible=visible, edges=self.edges)
 
 
+_COLORED = ("opacity", "color_map", "value_range")
+"""Settings of a scalar."""
+
 LAYERS: tuple[LayerKind, ...] = (
-    LayerKind("surface", "Surface", ("opacity", "edges")),
-    LayerKind("H", "H", ("opacity", "color_map", "value_range")),
-    LayerKind("theta", "Theta", ("opacity", "color_map"), visible=False),
-    LayerKind("H1", "H1", ("opacity", "color_map", "value_range"), visible=False),
-    LayerKind("H2", "H2", ("opacity", "color_map", "value_range"), visible=False),
-    LayerKind("aspect", "Aspect", ("opacity", "color_map", "value_range"), visible=False),
-    LayerKind("error", "Error density", ("opacity", "color_map", "value_range"), visible=False),
-    LayerKind("crosses", "Crosses", ("opacity", "size", "density", "uniform")),
-    LayerKind("separatrices", "Separatrices", ("opacity", "size")),
-    LayerKind("marks", "T and ! marks", ("size",)),
-    LayerKind("layout", "Layout", ("opacity", "edges", "size"), visible=False, edges=True),
+    LayerKind("surface", "Surface", "The triangles", ("opacity", "edges")),
+    LayerKind("H", "H", "Logarithm of the size of quads, of two sizes the mean", _COLORED),
     LayerKind(
-        "quads",
-        "Quads",
-        ("coloring", "edges", "size", "value_range"),
-        visible=False,
-        edges=True,
+        "theta", "Theta", "Angle of the crosses against a fixed direction",
+        ("opacity", "color_map"), visible=False,
     ),
-    LayerKind("guide", "Validity guide", ("size",)),
-    LayerKind("singularities", "Singularities", ("size",)),
-    LayerKind("cut", "Cut graph", ("opacity", "size"), visible=False),
-    LayerKind("features", "Features", ("size",)),
-    LayerKind("boundary", "Boundary", ("size",)),
-    LayerKind("legend", "Valence legend"),
-    LayerKind("axes", "Axes"),
-)
+    LayerKind("H1", "H1", "Logarithm of the size along u", _COLORED, visible=False),
+    LayerKind("H2", "H2", "Logarithm of the size along v", _COLORED, visible=False),
+    LayerKind("aspect", "Aspect", "How far apart both sizes are", _COLORED, visible=False),
+    LayerKind(
+        "error", "Error density", "Where the field fails to be integrable", _COLORED, visible=False
+    ),
+    LayerKind(
+        "crosses", "Crosses", "Directions of the field, in their sizes",
+        ("opacity", "size", "density", "uniform"),
+    ),
+    LayerKind(
+        "separatrices", "Separatrices", "Curves along the crosses that leave singularities",
+        ("opacity", "size"),
+    ),
+    LayerKind(
+        "marks", "T and ! marks",
+        "T: a separatrix ends at the side of another; !: a boundary that the field is off",
+        ("size",),
+    ),
+    LayerKind(
+        "layout", "Layout", "The rectangles that separatrices cut the surface into",
+        ("opacity", "edges", "size"), visible=False, edges=True,
+    ),
+    LayerKind(
+        "quads", "Quads", "The quad mesh, in place of the triangles",
+        ("coloring", "edges", "size", "value_range"), visible=False, edges=True,
+    ),
+    LayerKind(
+        "guide", "Validity guide", "Where the singularity under the mouse may go", ("size",)
+    ),
+    LayerKind("singularities", "Singularities", "Discs in the colours of valences", ("size",)),
+    LayerKind(
+        "cut", "Cut graph", "Edges that, cut, open the surface to a disk", ("opacity", "size"),
+        visible=False,
+    ),
+    LayerKind("features", "Features", "Edges that the crosses are to follow", ("size",)),
+    LayerKind("boundary", "Boundary", "Edges of the surface", ("size",)),
+    LayerKind("legend", "Legend", "Colours of valences, below the surface"),
+    LayerKind("axes", "Axes", "Directions x, y, z, at the upper right"),
+)  # fmt: skip
 """What can be shown or not, in the order in which it is listed."""
 
 

@@ -1,7 +1,7 @@
 """What the window shows and says is true at every moment, and every key does what it says."""
 
 import pytest
-from PySide6.QtCore import QPointF, Qt
+from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QDoubleSpinBox, QLabel, QSpinBox, QTabBar, QToolTip
 
@@ -11,6 +11,7 @@ from crossview.view.scalars import SURFACE_SCALARS
 from tests.windowing import Hand
 
 CTRL = Qt.KeyboardModifier.ControlModifier
+LEFT = Qt.MouseButton.LeftButton
 
 
 def valences(hand: Hand) -> list[int]:
@@ -87,11 +88,55 @@ def test_tab_reaches_every_panel(hand: Hand) -> None:
 def test_space_opens_and_shuts_the_eye_of_a_layer(hand: Hand) -> None:
     layers = hand.window.layers_panel.list
     layers.setFocus()
-    layers.setCurrentRow(0)
+    layers.select("surface")
     QTest.keyClick(layers, Qt.Key.Key_Space)
     assert not hand.state.layers["surface"].visible
     QTest.keyClick(layers, Qt.Key.Key_Space)
     assert hand.state.layers["surface"].visible
+
+
+def test_all_layers_are_seen_in_a_small_window_and_a_click_on_an_eye_shuts_it(hand: Hand) -> None:
+    hand.open("disk-4")
+    panel = hand.window.layers_panel
+    area = panel.list.viewport().rect()
+    rows = [panel.list.visualItemRect(panel.list.item(i)) for i in range(panel.list.count())]
+    assert all(area.contains(row) for row in rows)
+    assert panel.list.viewport().visibleRegion().boundingRect() == area
+    for editor in panel.editors.values():  # none higher than there is room for
+        panel.settings.setCurrentWidget(editor)
+        QApplication.processEvents()
+        bottom = panel.settings.geometry().bottom()
+        assert panel.settings.height() >= editor.sizeHint().height()
+        assert bottom <= panel.rect().bottom()
+    names = [panel.list.item(i).text() for i in range(panel.list.count())]
+    row = rows[names.index("Legend")]
+    QTest.mouseClick(panel.list.viewport(), LEFT, pos=row.topLeft() + QPoint(10, 8))
+    assert not hand.state.layers["legend"].visible
+    QTest.mouseClick(panel.list.viewport(), LEFT, pos=row.center())  # its name
+    assert not hand.state.layers["legend"].visible
+
+
+def test_the_surface_is_coloured_by_what_the_box_says(hand: Hand) -> None:
+    hand.open("annulus-near")
+    hand.wait(lambda: hand.state.solved)
+    box = hand.window.layers_panel.scalar
+    assert box.currentText() == "H"
+    box.setFocus()
+    QTest.keyClick(box, Qt.Key.Key_Down)
+    assert [n for n in SURFACE_SCALARS if hand.state.layers[n].visible] == ["theta"]
+    QTest.keyClick(box, Qt.Key.Key_Home)
+    assert not any(hand.state.layers[n].visible for n in SURFACE_SCALARS)
+    hand.trigger("layer-aspect")
+    assert box.currentText() == "Aspect"
+
+
+def test_layers_under_quads_are_pale_in_the_list(hand: Hand) -> None:
+    hand.open("sphere-cube")
+    hand.trigger("mesh")
+    hand.wait(lambda: hand.state.layers["quads"].visible)
+    assert hand.state.covered == {"surface", "crosses"}
+    hand.trigger("layer-quads")
+    assert not hand.state.covered
 
 
 def test_one_scalar_is_shown_at_a_time_and_comparing_gives_it_back(hand: Hand) -> None:
@@ -113,7 +158,7 @@ def test_one_scalar_is_shown_at_a_time_and_comparing_gives_it_back(hand: Hand) -
 
 def test_a_range_typed_the_wrong_way_round_says_why_it_is_not_taken(hand: Hand) -> None:
     hand.open("disk-4")
-    hand.window.layers_panel.list.setCurrentRow(1)
+    hand.window.layers_panel.scalar.setFocus()  # below it are its settings
     editor = hand.window.layers_panel.editors["H"]
     low, high = editor.findChildren(QDoubleSpinBox)
     hand.window.session.looks.set_layer("H", type(hand.state.layers["H"])(value_range=(-1.0, 1.0)))

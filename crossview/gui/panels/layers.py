@@ -1,82 +1,91 @@
-"""The Layers panel: an eye per layer and, below, the settings of the selected one."""
+"""The Layers panel: what colours the surface, an eye per layer, the settings of one of them."""
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QObject, QSize, Qt
-from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import (
-    QAbstractItemView,
-    QFrame,
-    QListWidget,
-    QListWidgetItem,
-    QStackedWidget,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QStackedWidget, QVBoxLayout, QWidget
 
-from crossview.gui.icons import icon
+from crossview.gui.panels.layer_list import LayerList
 from crossview.gui.panels.layer_settings import LayerEditor
 from crossview.scene import LAYERS
 from crossview.session.session import Session
 from crossview.session.state import SessionState
+from crossview.view.scalars import SURFACE_SCALARS
 
-ROW, LEAST_ROWS = 24, 5
-"""Height of a row in pixels, and rows that are always seen. Chosen."""
+SCALAR_KINDS = tuple(kind for kind in LAYERS if kind.name in SURFACE_SCALARS)
+"""Layers of which one at a time colours the surface."""
+
+LISTED = tuple(kind for kind in LAYERS if kind.name not in SURFACE_SCALARS)
+"""The other layers."""
 
 
 class LayersPanel(QWidget):
-    """List of layers; a click on the eye shows or hides, a click on the name selects."""
+    """The settings below are those of what was last chosen or shown above."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session = session
-        self.list = QListWidget()
-        self.list.setAccessibleName("Layers")
-        self.list.installEventFilter(self)
-        self.list.setFrameShape(QFrame.Shape.NoFrame)
-        self.list.setIconSize(QSize(18, 18))
-        self.list.setUniformItemSizes(True)
-        self.list.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
+        self.scalar = QComboBox()
+        self.scalar.setAccessibleName("Colour by")
+        self.scalar.addItem("Nothing", "")
+        for kind in SCALAR_KINDS:
+            self.scalar.addItem(kind.label, kind.name)
+            self.scalar.setItemData(self.scalar.count() - 1, kind.tip, Qt.ItemDataRole.ToolTipRole)
+        self.scalar.activated.connect(self._color_by)
+        self.scalar.installEventFilter(self)
+        self.list = LayerList(LISTED)
+        self.list.toggled.connect(session.looks.toggle_layer)
+        self.list.currentRowChanged.connect(lambda _: self._show_settings(self.list.current))
+        self.of = QLabel()
+        self.of.setContentsMargins(10, 0, 10, 0)
+        self.of.setForegroundRole(self.palette().ColorRole.PlaceholderText)
         self.settings = QStackedWidget()
-        self.editors: dict[str, LayerEditor] = {}
-        for kind in LAYERS:
-            item = QListWidgetItem(kind.label)
-            item.setSizeHint(QSize(0, ROW))
-            self.list.addItem(item)
-            self.editors[kind.name] = LayerEditor(kind, session)
-            self.settings.addWidget(self.editors[kind.name])
-        self.list.setMinimumHeight(LEAST_ROWS * ROW)
-        self.list.setMaximumHeight(ROW * len(LAYERS) + 4)
-        self.list.currentRowChanged.connect(self.settings.setCurrentIndex)
-        self.list.itemPressed.connect(self._pressed)
-        self.list.setCurrentRow(1)
+        self.editors = {kind.name: LayerEditor(kind, session) for kind in LAYERS}
+        for editor in self.editors.values():
+            self.settings.addWidget(editor)
+        top = QHBoxLayout()
+        top.setContentsMargins(10, 0, 10, 0)
+        top.setSpacing(8)
+        top.addWidget(QLabel("Colour by"))
+        top.addWidget(self.scalar, 1)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 4, 0, 4)
         layout.setSpacing(4)
-        layout.addWidget(self.list, 3)
-        layout.addWidget(self.settings, 1)
+        layout.addLayout(top)
+        layout.addWidget(self.list)
+        layout.addWidget(self.of)
+        layout.addWidget(self.settings)
+        layout.addStretch()
         self.show_state(None, session.state)
+        self._show_settings("H")
 
     def show_state(self, old: SessionState | None, new: SessionState) -> None:
         """Follow the window's state."""
-        if old is not None and old.layers is new.layers:
+        if old is not None and old.layers is new.layers and old.made is new.made:
             return
-        for row, kind in enumerate(LAYERS):
-            visible = new.layers[kind.name].visible
-            self.list.item(row).setIcon(icon("eye" if visible else "eye-off"))
+        shown = next((n for n in SURFACE_SCALARS if new.layers[n].visible), "")
+        self.scalar.setCurrentIndex(self.scalar.findData(shown))
+        for kind in LISTED:
+            self.list.show_layer(kind.name, new.layers[kind.name].visible, kind.name in new.covered)
+        for kind in LAYERS:
             self.editors[kind.name].show_settings(new.layers[kind.name])
-            if visible and old is not None and not old.layers[kind.name].visible:
-                self.list.setCurrentRow(row)  # its settings are at hand
+            appeared = old is not None and not old.layers[kind.name].visible
+            if appeared and new.layers[kind.name].visible:
+                self._show_settings(kind.name)  # they are at hand
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Let Space do what a click on the eye does."""
-        space = isinstance(event, QKeyEvent) and event.key() == Qt.Key.Key_Space
-        if event.type() == QEvent.Type.KeyPress and space:
-            self._session.looks.toggle_layer(LAYERS[self.list.currentRow()].name)
-            return True
+        """Show the settings of the scalar when its box is gone to."""
+        if event.type() == QEvent.Type.FocusIn:
+            self._show_settings(self.scalar.currentData())
         return super().eventFilter(watched, event)
 
-    def _pressed(self, item: QListWidgetItem) -> None:
-        place = self.list.viewport().mapFromGlobal(self.list.cursor().pos())
-        if place.x() < 28:
-            self._session.looks.toggle_layer(LAYERS[self.list.row(item)].name)
+    def _color_by(self) -> None:
+        self._session.looks.color_by(self.scalar.currentData())
+        self._show_settings(self.scalar.currentData())
+
+    def _show_settings(self, name: str) -> None:
+        if not name:
+            return
+        self.list.select(name)
+        self.of.setText(next(kind.label for kind in LAYERS if kind.name == name))
+        self.settings.setCurrentWidget(self.editors[name])

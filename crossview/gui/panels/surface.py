@@ -78,6 +78,7 @@ class SurfacePanel(QScrollArea):
     def _show(self, document: Document | None) -> None:
         for row in range(self._form.rowCount()):
             self._form.setRowVisible(row, document is not None)
+        self.features.setVisible(document is not None)
         self.notes.setVisible(document is not None and bool(document.problem.notes))
         if document is None:
             self.name.setText("Nothing open")
@@ -85,7 +86,7 @@ class SurfacePanel(QScrollArea):
         surface = document.surface
         self.name.setText(document.name)
         self.counts.setText(
-            f"{count(surface.n_vertices, 'vertex', 'vertices')}\n"
+            f"{count(surface.n_vertices, 'vertex', 'vertices')}, "
             f"{count(surface.n_faces, 'triangle')}"
         )
         self.topology.setText(_topology(surface))

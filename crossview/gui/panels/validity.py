@@ -137,7 +137,7 @@ class ValidityPanel(QWidget):
         self.free.setForegroundRole(self.palette().ColorRole.PlaceholderText)
         self._row_layout.addWidget(self.free)
         self._row_layout.addStretch()
-        scroll = QScrollArea()
+        self._scroll = scroll = QScrollArea()
         scroll.setFrameShape(QFrame.Shape.NoFrame)
         scroll.setWidgetResizable(True)
         scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
@@ -152,12 +152,13 @@ class ValidityPanel(QWidget):
         layout.addWidget(self.note)
         layout.addLayout(self._offers)
         layout.addWidget(scroll, 1)
-        bottom = QHBoxLayout()
-        bottom.setContentsMargins(30, 4, 8, 4)
-        bottom.setSpacing(6)
-        bottom.addWidget(self.make_valid)
-        bottom.addWidget(self.improve)
-        layout.addLayout(bottom)
+        buttons = QHBoxLayout()
+        buttons.setContentsMargins(30, 4, 8, 4)
+        buttons.setSpacing(6)
+        buttons.addWidget(self.make_valid)
+        buttons.addWidget(self.improve)
+        layout.addLayout(buttons)
+        layout.addStretch()
         self.show_state(None, session.state)
 
     def show_state(self, old: SessionState | None, new: SessionState) -> None:
@@ -219,8 +220,8 @@ class ValidityPanel(QWidget):
         labels: tuple[str, ...] = ()
         if state.base is not None:
             labels = tuple(c.label for c in state.base.solver.holonomy.conditions)
-        self._make_rows(len(labels))
         self.free.setVisible(state.base is not None and not labels)
+        self._make_rows(len(labels))
         defects = state.defects
         for i, (row, label) in enumerate(zip(self.rows, labels, strict=True)):
             if defects is None:
@@ -249,6 +250,8 @@ class ValidityPanel(QWidget):
             row.clicked.connect(lambda number=number: self._session.pointer.toggle_pin(number))
             self._row_layout.insertWidget(number, row)
             self.rows.append(row)
+        # no higher than its rows, so that the buttons stand below what they mend
+        self._scroll.setMaximumHeight(self._list.sizeHint().height())
 
 
 def _offers(state: SessionState) -> int | None:

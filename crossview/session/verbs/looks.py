@@ -34,6 +34,14 @@ class Looks:
         layer = self._store.state.layers[name]
         self.set_layer(name, replace(layer, visible=not layer.visible))
 
+    def color_by(self, name: str) -> None:
+        """Colour the surface by one of its scalars; empty: by none."""
+        state = self._store.state
+        for scalar in SURFACE_SCALARS:
+            state = state.with_layer_shown(scalar, scalar == name)
+        self._store.update(state)
+        self._solving.pursue()
+
     def compare(self) -> None:
         """Show the error density of the start, or of the result again, on the same range."""
         state = self._store.state

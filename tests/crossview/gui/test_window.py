@@ -106,9 +106,9 @@ def test_palette_finds_and_runs(hand: Hand) -> None:
     hand.open("disk-4")
     hand.key(Qt.Key.Key_P, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
     palette = next(w for w in QApplication.topLevelWidgets() if isinstance(w, Palette))
-    QTest.keyClicks(palette.search, "cut show")
+    QTest.keyClicks(palette.search, "cut graph layers")
     shown = [palette.list.topLevelItem(i).text(0) for i in range(palette.list.topLevelItemCount())]
-    assert shown == ["View: Show cut graph"]
+    assert shown == ["View: Layers: Cut graph"]
     QTest.keyClick(palette.search, Qt.Key.Key_Return)
     hand.wait(lambda: hand.state.cut_graph is not None)
     assert hand.state.layers["cut"].visible
