@@ -1,9 +1,9 @@
 """Background work where only the latest request matters.
 
 One worker thread runs one job at a time. A job is a generator that yields Progress and returns
-its result. A newer request replaces a waiting one and stops the running one at its next yield; a
-job that never yields (one back-substitution of a drag) is left to finish, so that a stream of
-requests still shows results instead of cancelling each other for ever.
+its result. A newer request replaces a waiting one and stops the running one, at its next yield or
+inside a factorisation; a job that has neither (one back-substitution of a drag) is left to finish,
+so that a stream of requests still shows results instead of cancelling each other for ever.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from collections.abc import Callable, Generator
 from dataclasses import dataclass
 from typing import Any
 
+from solvers.interruption import Interrupted, Interruption
 from solvers.progress import Progress
 
 Job = Callable[[], Generator[Progress, None, Any]]
@@ -65,9 +66,8 @@ class LatestJobs:
         self._notify = notify
         self._condition = threading.Condition()
         self._waiting: tuple[int, Job] | None = None
-        self._running: int | None = None
+        self._running: tuple[int, Interruption] | None = None
         self._latest = 0
-        self._stop_before = 0  # tickets below are to be stopped
         self._closed = False
         self._thread = threading.Thread(target=self._work, name="crossview-jobs", daemon=True)
         self._thread.start()
@@ -89,15 +89,15 @@ class LatestJobs:
             if self._closed:
                 raise RuntimeError("the job queue is closed")
             self._latest += 1
-            self._stop_before = self._latest
+            self._interrupt()
             self._waiting = (self._latest, job)
             self._condition.notify_all()
             return self._latest
 
     def cancel(self) -> None:
-        """Forget the waiting job and stop the running one at its next yield."""
+        """Forget the waiting job and stop the running one as soon as it can be."""
         with self._condition:
-            self._stop_before = self._latest + 1
+            self._interrupt()
             self._waiting = None
 
     def close(self) -> None:
@@ -108,34 +108,40 @@ class LatestJobs:
         self.cancel()
         self._thread.join()
 
+    def _interrupt(self) -> None:
+        if self._running is not None:
+            self._running[1].ask()
+
     def _work(self) -> None:
         while (claimed := self._claim()) is not None:
-            ticket, job = claimed
-            event = self._run(ticket, job)
+            event = self._run(*claimed)
             with self._condition:
                 self._running = None
             self._notify(event)
 
-    def _claim(self) -> tuple[int, Job] | None:
+    def _claim(self) -> tuple[int, Job, Interruption] | None:
         with self._condition:
             self._condition.wait_for(lambda: self._closed or self._waiting is not None)
             if self._closed or self._waiting is None:
                 return None
-            claimed, self._waiting = self._waiting, None
-            self._running = claimed[0]
-            return claimed
+            (ticket, job), self._waiting = self._waiting, None
+            self._running = ticket, Interruption()
+            return ticket, job, self._running[1]
 
-    def _run(self, ticket: int, job: Job) -> JobEvent:
+    def _run(self, ticket: int, job: Job, interruption: Interruption) -> JobEvent:
         try:
-            steps = job()
-            while True:
-                progress = next(steps)
-                if ticket < self._stop_before:
-                    steps.close()
-                    return Stopped(ticket)
-                self._notify(Progressed(ticket, progress))
+            with interruption.obeyed():
+                steps = job()
+                while True:
+                    progress = next(steps)
+                    if interruption.asked:
+                        steps.close()
+                        return Stopped(ticket)
+                    self._notify(Progressed(ticket, progress))
         except StopIteration as end:
             return Finished(ticket, end.value)
+        except Interrupted:
+            return Stopped(ticket)
         except Exception as error:
             # Whatever went wrong belongs in the window's message bar; the worker must live on.
             return Failed(ticket, error)

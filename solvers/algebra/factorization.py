@@ -18,6 +18,7 @@ from scipy.sparse import csc_array, diags_array
 from scipy.sparse.linalg import splu
 
 from solvers.errors import SolveError
+from solvers.interruption import Interrupted, interruption
 from solvers.surface.triangulation import FloatArray, IntArray
 
 RESIDUAL_BOUND = 1e-12
@@ -57,6 +58,8 @@ class Factorization:
     ------
     SolveError
         If no library factors it.
+    Interrupted
+        If the `Interruption` that the thread obeys was asked for meanwhile.
 
     Examples
     --------
@@ -197,7 +200,7 @@ def _guarded(call: Callable[[], T]) -> T:
     """Return what a library does; whatever it raises is a `_LibraryError`."""
     try:
         return call()
-    except (KeyboardInterrupt, SystemExit):
+    except (KeyboardInterrupt, SystemExit, Interrupted):
         raise
     except BaseException as error:  # a panic of compiled code is no Exception
         raise _LibraryError(f"{type(error).__name__}: {error}") from error
@@ -300,7 +303,16 @@ class _Rslab:
         if self._symbolic is None:
             self._symbolic = rslab.analyze(matrix, path="ldlt", ordering="amd")
         # The values of a lower triangle are taken as they are.
-        factor = self._symbolic.factor(matrix.data if self._lower else matrix)
+        values = matrix.data if self._lower else matrix
+        flag = rslab.Interrupt()
+        with interruption().telling(flag.cancel):
+            try:
+                factor = self._symbolic.factor(values, interrupt=flag)
+            except RuntimeError:
+                if not flag.is_set:
+                    raise
+        if flag.is_set:
+            raise Interrupted
 
         def solve(right: FloatArray) -> FloatArray:
             return np.asarray(factor.solve(right) if right.ndim == 1 else factor.solve_many(right))

@@ -74,7 +74,7 @@ class QuadMaking:
         if made.trouble is not None:
             if layers["layout"].visible and made.trouble is not self._told:
                 self._refuse(made.trouble, None)
-        elif made.layout is None and (curves or layers["layout"].visible):
+        elif made.layout is None and layers["layout"].visible:
             self._solving.run(partial(lay_out, solution, made), self._show, self._failed)
             return True
         return False

@@ -41,6 +41,8 @@ class Solving:
         self._store = store
         self._solver = MethodSolver()
         self._background = Background(loop, self._progressed)
+        # what follows the mouse waits for nothing that takes a while to stop
+        self._live = Background(loop)
         self._when_stopped: Callable[[], None] = self._say_stopped
         self._pursuits: list[Callable[[], bool]] = [self._cut]
         self._tracer = LiveTracer()
@@ -50,7 +52,7 @@ class Solving:
     @property
     def busy(self) -> bool:
         """Whether an answer is still awaited."""
-        return self._background.busy
+        return self._background.busy or self._live.busy
 
     def run(
         self,
@@ -61,19 +63,11 @@ class Solving:
     ) -> None:
         """Run any job in place of what runs now; `stopped` is called if the user stops it."""
         self._when_stopped = stopped or self._say_stopped
-        self._submit(job, done, fail)
+        self._leave_live()
+        self._background.submit(job, done, fail)
         # it can be stopped from now on, long before it tells of itself
         state = self._store.state.work_ended().unsaid("stop")
         self._store.update(state.progressed(Progress("starting", 0.0)))
-
-    def _submit(
-        self,
-        job: Callable[[], Generator[Progress, None, T]],
-        done: Callable[[T], None],
-        fail: Callable[[Exception], None],
-    ) -> None:
-        self._still.stop()
-        self._background.submit(job, done, fail)
 
     def follow(self) -> None:
         """Drop what was asked before and bring the results in line with the present document.
@@ -82,6 +76,7 @@ class Solving:
         """
         self._keep(self._store.state.last)
         self._background.forget()
+        self._leave_live()
         self._store.update(self._store.state.work_ended().unsaid("solve", "stop"))
         document, base = self._store.state.document, self._store.state.base
         if document is None:
@@ -111,8 +106,9 @@ class Solving:
     def try_out(self, edit: LiveEdit) -> None:
         """Show the field of an edit on the kept factor; one that has none yet shows none."""
         traced = self._store.state.layers["separatrices"].visible
-        job = partial(self._tracer.follow, edit, traced)
-        self._submit(job, self._show_live, lambda error: None)
+        if self._background.busy:
+            self._background.forget()
+        self._run_live(partial(self._tracer.follow, edit, traced))
 
     def pursue_also(self, pursuit: Callable[[], bool]) -> None:
         """Let `pursuit` start something, and say whether it did, when there is time for it."""
@@ -127,11 +123,13 @@ class Solving:
         """Stop at the user's wish; what is shown stays."""
         if self.busy:
             self._background.forget()
+            self._leave_live()
             self._when_stopped()
 
     def close(self) -> None:
-        """End the background thread."""
+        """End the background threads."""
         self._still.stop()
+        self._live.close()
         self._background.close()
 
     def restore(self) -> None:
@@ -175,6 +173,15 @@ class Solving:
         self.run(partial(cut, solution), show, self._failed)
         return True
 
+    def _run_live(self, job: Callable[[], Generator[Progress, None, Traced]]) -> None:
+        self._still.stop()
+        self._live.submit(job, self._show_live, lambda error: None)
+
+    def _leave_live(self) -> None:
+        """Show no more of what follows the mouse."""
+        self._still.stop()
+        self._live.forget()
+
     def _show_live(self, traced: Traced) -> None:
         self._store.update(self._store.state.field_tried(traced))
         if traced.separatrices is None and self._store.state.layers["separatrices"].visible:
@@ -184,8 +191,7 @@ class Solving:
         """Trace what was left out for speed, now that the mouse is still."""
         state = self._store.state
         if state.trial is not None and state.field is not None and not self.busy:
-            job = partial(self._tracer.catch_up, state.field)
-            self._submit(job, self._show_live, lambda error: None)
+            self._run_live(partial(self._tracer.catch_up, state.field))
 
     def _failed(self, error: Exception) -> None:
         self._store.update(self._store.state.no_solution())

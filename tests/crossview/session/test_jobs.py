@@ -11,6 +11,8 @@ from crossview.session.jobs import (
     Progressed,
     Stopped,
 )
+from solvers.algebra import factorized, stiffness
+from solvers.primitives import disk
 from solvers.progress import Progress
 
 PATIENCE = 10.0
@@ -116,6 +118,23 @@ def test_a_newer_request_stops_a_running_one_at_its_next_yield(
     assert closed.is_set()
     assert Stopped(first) in heard.events
     assert heard.events.index(Stopped(first)) < heard.events.index(Finished(second, 7))
+
+
+def test_a_factorisation_is_stopped_without_a_yield(jobs: LatestJobs, heard: Heard) -> None:
+    matrix = stiffness(disk(edge_length=0.05).triangulation)[1:, 1:]
+    begun = threading.Event()
+
+    def endless() -> Generator[Progress, None, None]:
+        yield from ()
+        while True:
+            factorized(matrix)
+            begun.set()
+
+    first = jobs.submit(endless)
+    assert begun.wait(PATIENCE)
+    second = jobs.submit(answer(2))
+    heard.wait_for(lambda e: e == Finished(second, 2))
+    assert heard.events[0] == Stopped(first)
 
 
 def test_cancel_stops_what_runs_and_forgets_what_waits(jobs: LatestJobs, heard: Heard) -> None:

@@ -2,7 +2,8 @@
 
 import subprocess
 import sys
-from collections.abc import Iterator
+import threading
+from collections.abc import Generator, Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,11 +12,14 @@ import pytest
 
 from crossview.cases.gallery import path_of
 from crossview.cases.model import Case
+from crossview.session.document import Document
 from crossview.session.message import ShowWhere
 from crossview.session.opening import Opening
 from crossview.session.shown import Nothing, Provisional, Solved
 from crossview.session.state import SessionState
+from crossview.workflow.layout import SOON
 from crossview.workflow.quads import MeshOptions
+from solvers.progress import Progress
 from solvers.remedies import RepairSurface, UseMethod
 from tests.crossview.session.headless import Headless, known
 
@@ -118,6 +122,39 @@ def test_dragging_follows_and_dropping_solves(held: Headless) -> None:
     held.wait()
     assert held.state.document is before.document
     assert held.state.redo_name == "move singularity 1"
+
+
+def test_a_drag_waits_for_nothing_that_takes_a_while_to_stop(held: Headless) -> None:
+    held.open("disk-4")
+    session, release = held.session, threading.Event()
+
+    def unbroken() -> Generator[Progress, None, None]:
+        release.wait()
+        yield Progress("stopped at last", 1.0)
+
+    def fail(error: Exception) -> None:
+        raise error
+
+    session.solving.run(unbroken, lambda result: None, fail)
+    assert session.trials.start_drag(0)
+    session.trials.drag_to(held.on_surface(0.5, 0.2, 0.0))
+    held.wait(lambda: isinstance(held.state.shown, Provisional))
+    release.set()
+    session.trials.drop()
+    held.wait(lambda: held.state.solved)
+    np.testing.assert_allclose(held.position(0), (0.5, 0.2, 0.0), atol=1e-9)
+
+
+def test_a_large_surface_is_laid_out_only_for_its_layer_and_quads(held: Headless) -> None:
+    built = {"builtin": "annulus", "inner": 0.4, "n": 390}
+    case = Case.from_json({"surface": built, "method": "isotropic"})
+    held.session.edits.open(Document.from_case("large", case))
+    held.wait(lambda: held.state.made.settled)
+    assert held.state.solution.surface.n_faces > SOON
+    assert held.state.made.layout is None
+    held.session.looks.toggle_layer("layout")
+    held.wait()
+    assert known(held.state.made.layout).patches == 1
 
 
 def test_a_drag_put_back_changes_nothing(held: Headless) -> None:
