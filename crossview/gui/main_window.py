@@ -107,6 +107,7 @@ class MainWindow(QMainWindow):
         self.mouse.edit_wanted.connect(self.edit_valence)
         self.mouse.hovered.connect(self.status.show_hover)
         self.viewport.frame_drawn.connect(self.status.show_frame)
+        self.viewport.limits_drawn.connect(self.layers_panel.show_limits)
         self.centre.empty.chosen.connect(self.files.open)
         self.centre.empty.open_wanted.connect(self.files.ask_open)
         self.centre.unsaved.restore.connect(self.files.restore)

@@ -51,6 +51,8 @@ class Viewport(QWidget):
 
     frame_drawn = Signal(float)
     """Milliseconds that a frame took."""
+    limits_drawn = Signal(str, object)
+    """Name of the scalar that is drawn, and the limits of its colours."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -97,7 +99,10 @@ class Viewport(QWidget):
         view = scene_view(state, self.held.ranges)
         if self.scene.show(replace(view, title=self._elided(view.title))):
             self._update()
-        self.held.hold(state, shown_scalar(view), self.scene.limits)
+        shown = shown_scalar(view)
+        self.held.hold(state, shown, self.scene.limits)
+        if shown:
+            self.limits_drawn.emit(shown, self.scene.limits)
 
     def _update(self) -> None:
         """Ask for one frame, fast; a smooth one follows when nothing moves any more."""

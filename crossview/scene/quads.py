@@ -7,13 +7,14 @@ import numpy.typing as npt
 import pyvista as pv
 
 from crossview.scene.actors import MeshActor, set_cell_colors
-from crossview.scene.singularities import Balls, marker_radius
+from crossview.scene.balls import Balls
+from crossview.scene.singularities import marker_radius
 from crossview.scene.surface import shade, style_surface
 from crossview.scene.watch import Watch
 from crossview.view.colors import QUAD_EDGE, SURFACE, THEMES, color_table, rgb, valence_color
 from crossview.view.geometry import Triangles
 from crossview.view.quad_geometry import QuadGeometry
-from crossview.view.scalars import SCALARS, quality_limits
+from crossview.view.scalars import SCALARS, quality_limits, shown_scalar
 from crossview.view.scene_view import LayerSettings, SceneView
 from crossview.view.style import WIDTH
 from crossview.view.values import Quads
@@ -48,7 +49,7 @@ class QuadsLayer:
             if fresh:
                 self._replace(mesh)
             self._color(cover, mesh, settings, fresh)
-            self._style(cover, settings, THEMES[view.background].ink)
+            self._style(cover, settings, THEMES[view.background].ink, shown_scalar(view) == cover)
         self._dot(view, triangles, cover, settings)
 
     def remove(self) -> None:
@@ -70,8 +71,9 @@ class QuadsLayer:
             colors = quad_colors(cover, self._geometry, settings)
             set_cell_colors(self._quads.mesh, self._quads.mapper, colors)
 
-    def _style(self, cover: str, settings: LayerSettings, ink: str) -> None:
+    def _style(self, cover: str, settings: LayerSettings, ink: str, colored: bool) -> None:
         width = WIDTH[cover] * settings.size * self._pixel_ratio
+        self._quads.property.SetLighting(settings.shaded or not colored)
         self._quads.property.SetEdgeVisibility(settings.edges and cover == "quads")
         self._quads.property.SetLineWidth(width)
         self._quads.visible = True
@@ -86,10 +88,11 @@ class QuadsLayer:
         if not self._watch.changed("dots", mesh, triangles, settings.size, view.singularities):
             return
         if mesh is None or triangles is None:
-            self._dots.show(np.empty((0, 3)), 1.0, [])
+            self._dots.show(np.empty((0, 3)), 1.0, [], np.empty((0, 3)), 0)
             return
         radius = irregular_radius(view, triangles)
-        self._dots.show(mesh.irregular, radius, [valence_color(int(n)) for n in mesh.valences])
+        colors = [valence_color(int(n)) for n in mesh.valences]
+        self._dots.show(mesh.irregular, radius, colors, mesh.normals, triangles.outward)
 
 
 def irregular_radius(view: SceneView, triangles: Triangles) -> float:
@@ -111,7 +114,7 @@ def quad_colors(
         return geometry.patch_colors
     if settings.coloring == "quality" and mesh.quality is not None:
         table = color_table(SCALARS["quads"].color_map)[:, :3]
-        low, high = quality_limits(settings)
+        low, high = quality_limits(settings, mesh.quality)
         share = (mesh.quality - low) / (high - low)
         return np.asarray(
             table[np.clip(np.rint(share * (len(table) - 1)), 0, len(table) - 1).astype(int)]

@@ -105,8 +105,9 @@ class Scene:
     @property
     def limits(self) -> tuple[float, float]:
         """The limits of the colours of the scalar shown; of the error density powers of 10."""
-        if shown_scalar(self._view) == "quads":
-            return quality_limits(self._view.layer("quads"))
+        quads = self._view.quads
+        if shown_scalar(self._view) == "quads" and quads and quads.quality is not None:
+            return quality_limits(self._view.layer("quads"), quads.quality)
         return self._surface.limits
 
     def show(self, view: SceneView) -> bool:

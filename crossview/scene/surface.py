@@ -56,6 +56,7 @@ class SurfaceLayer:
         if triangles is not None and shown:
             self._color(view, shown, triangles)
         self._actor.mapper.SetScalarVisibility(bool(shown))
+        self._actor.property.SetLighting(not shown or view.layer(shown).shaded)
         settings = view.layer("surface")
         self._actor.visible = bool(shown) or settings.visible
         if self._watch.changed("style", settings, triangles):

@@ -13,13 +13,13 @@ from crossview.session.hand import Focus, SelectTool
 from crossview.session.held_ranges import NO_RANGES, Ranges
 from crossview.session.state import SessionState
 from crossview.view.colors import condition_color
-from crossview.view.field import feature_lines, field_view
+from crossview.view.field import feature_lines, field_view, markers_of
 from crossview.view.meshes import curves_of, patches_of, quads_of, t_junctions_of
 from crossview.view.scalars import SURFACE_SCALARS
 from crossview.view.scene_view import Background, LayerSettings, SceneView
 from crossview.view.values import Elements, Marker
 from solvers.fields import CrossField
-from solvers.surface import FloatArray, IntArray, TriSurface
+from solvers.surface import IntArray, TriSurface
 
 PALE = 0.3
 """What is left of the opacity of a field that is no longer that of the configuration. Chosen."""
@@ -52,13 +52,8 @@ def scene_view(state: SessionState, held: Ranges = NO_RANGES) -> SceneView:
     if surface is None or document is None:
         return SceneView(background=background, layers=state.layers)
     field = state.field if state.field is not None and state.field.surface is surface else None
-    positions = document.surface.positions([s.point for s in state.singularities])
     condition = state.focus.condition
-    selected = state.focus.all
-    markers = tuple(
-        Marker(_triple(position), s.valence, selected=i in selected, locked=s.locked)
-        for i, (s, position) in enumerate(zip(state.singularities, positions, strict=True))
-    )
+    markers = markers_of(document.surface, state.singularities, state.focus.all)
     if field is None:
         view = SceneView(surface.vertices, surface.faces)
     else:
@@ -121,7 +116,8 @@ def _preview(state: SessionState, surface: TriSurface) -> Marker | None:
     trial = state.trial
     if trial is None or trial.drag or trial.surface is not surface:
         return None
-    return Marker(_triple(surface.position(trial.placed)), trial.singularities[-1].valence)
+    (marker,) = markers_of(surface, [replace(trial.held, point=trial.placed)])
+    return marker
 
 
 def _loop(state: SessionState) -> IntArray | None:
@@ -161,8 +157,3 @@ def _dimmed(layers: Mapping[str, LayerSettings]) -> Mapping[str, LayerSettings]:
         for name in (*SURFACE_SCALARS, "crosses", "separatrices")
     }
     return {**layers, **pale}
-
-
-def _triple(position: FloatArray) -> tuple[float, float, float]:
-    x, y, z = position
-    return float(x), float(y), float(z)

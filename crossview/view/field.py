@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -13,6 +13,8 @@ from crossview.view.scene_view import SceneView
 from crossview.view.values import Marker
 from solvers.features import Features
 from solvers.fields import CrossField, Limits
+from solvers.singularities import Singularity
+from solvers.surface import TriSurface
 
 
 def field_view(field: CrossField, cut_graph: IntArray | None = None, **others: Any) -> SceneView:
@@ -27,11 +29,7 @@ def field_view(field: CrossField, cut_graph: IntArray | None = None, **others: A
         Further fields of `SceneView`: layers, title, background, ...
     """
     surface = field.surface
-    positions = surface.positions([s.point for s in field.singularities])
-    markers = tuple(
-        Marker((float(x), float(y), float(z)), s.valence, locked=s.locked)
-        for (x, y, z), s in zip(positions, field.singularities, strict=True)
-    )
+    markers = markers_of(surface, field.singularities)
     values = {"singularities": markers, **others}
     return SceneView(
         surface.vertices,
@@ -43,6 +41,21 @@ def field_view(field: CrossField, cut_graph: IntArray | None = None, **others: A
         v=field.v,
         cut_graph=cut_graph,
         **values,
+    )
+
+
+def markers_of(
+    surface: TriSurface, singularities: Sequence[Singularity], selected: Collection[int] = ()
+) -> tuple[Marker, ...]:
+    """Return what to draw of singularities on a surface, those of some numbers as selected."""
+    points = [s.point for s in singularities]
+    positions = surface.positions(points).tolist()
+    normals = surface.face_normals[np.array([point.face for point in points], int)].tolist()
+    return tuple(
+        Marker(tuple(position), s.valence, i in selected, s.locked, tuple(normal))
+        for i, (s, position, normal) in enumerate(
+            zip(singularities, positions, normals, strict=True)
+        )
     )
 
 

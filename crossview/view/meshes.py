@@ -56,6 +56,9 @@ def patches_of(layout: QuadLayout) -> Quads:
 def quads_of(mesh: QuadMesh) -> Quads:
     """Return a quad mesh to draw, its quality and inner irregular vertices with it."""
     irregular = np.flatnonzero((mesh.valence != 4) & ~mesh.on_boundary)
+    a, b, c, d = (mesh.vertices[corner] for corner in mesh.quads.T)
+    normals = np.zeros(mesh.vertices.shape)
+    np.add.at(normals, mesh.quads, np.cross(c - a, d - b)[:, None])
     return Quads(
         mesh.vertices,
         mesh.quads,
@@ -63,4 +66,5 @@ def quads_of(mesh: QuadMesh) -> Quads:
         mesh.scaled_jacobian,
         mesh.vertices[irregular],
         mesh.valence[irregular],
+        normals[irregular],
     )

@@ -25,6 +25,9 @@ _DECADES, _ROUNDING = 4.0, -10.0
 _STEPS = np.array([1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0])
 """Numbers that a range of colours ends at, times a power of ten. Chosen."""
 
+_QUALITY_STEP = 0.05
+"""The least scaled Jacobian of a range is a multiple of this. Chosen."""
+
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 """Digits as they stand in exponents."""
 
@@ -105,9 +108,12 @@ def scalar_limits(view: SceneView, name: str, triangles: Triangles, values: Floa
     return symmetric_range(both, np.tile(triangles.areas, 2))
 
 
-def quality_limits(settings: LayerSettings) -> Limits:
-    """Return the limits of the colours of quads: 0 to 1 unless others are given."""
-    return settings.value_range or (0.0, 1.0)
+def quality_limits(settings: LayerSettings, quality: FloatArray) -> Limits:
+    """Return the limits of the colours of quads: unless given, from what 98 % are above, to 1."""
+    if settings.value_range is not None:
+        return settings.value_range
+    low = float(np.floor(np.quantile(quality, 0.02) / _QUALITY_STEP)) * _QUALITY_STEP
+    return (min(low, 1.0 - _QUALITY_STEP), 1.0)
 
 
 def density_limits(density: FloatArray, areas: FloatArray) -> Limits:

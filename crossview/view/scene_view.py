@@ -46,6 +46,8 @@ class LayerSettings:
         Whether edges are drawn: of triangles, of quads, of a layout those between its patches.
     coloring : {"quality", "patch", "plain"}
         What the colours of quads mean: scaled Jacobian, patch, nothing.
+    shaded : bool
+        Whether a scalar's colours are lit, which shows shape; else each is that of the bar.
     """
 
     visible: bool = True
@@ -57,6 +59,7 @@ class LayerSettings:
     uniform: bool = False
     edges: bool = False
     coloring: Coloring = "quality"
+    shaded: bool = False
 
 
 @dataclass(frozen=True)
@@ -75,7 +78,7 @@ class LayerKind:
         return LayerSettings(visible=visible, edges=self.edges)
 
 
-_COLORED = ("opacity", "color_map", "value_range")
+_COLORED = ("opacity", "color_map", "shaded", "value_range")
 """Settings of a scalar."""
 
 LAYERS: tuple[LayerKind, ...] = (
@@ -83,7 +86,7 @@ LAYERS: tuple[LayerKind, ...] = (
     LayerKind("H", "H", "Logarithm of the size of quads, of two sizes the mean", _COLORED),
     LayerKind(
         "theta", "Theta", "Angle of the crosses against a fixed direction",
-        ("opacity", "color_map"), visible=False,
+        ("opacity", "color_map", "shaded"), visible=False,
     ),
     LayerKind("H1", "H1", "Logarithm of the size along u", _COLORED, visible=False),
     LayerKind("H2", "H2", "Logarithm of the size along v", _COLORED, visible=False),
@@ -110,7 +113,7 @@ LAYERS: tuple[LayerKind, ...] = (
     ),
     LayerKind(
         "quads", "Quads", "The quad mesh, in place of the triangles",
-        ("coloring", "edges", "size", "value_range"), visible=False, edges=True,
+        ("coloring", "edges", "size", "shaded", "value_range"), visible=False, edges=True,
     ),
     LayerKind(
         "guide", "Validity guide", "Where the singularity under the mouse may go", ("size",)

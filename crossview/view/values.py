@@ -14,12 +14,16 @@ IntArray = npt.NDArray[np.integer[Any]]
 
 @dataclass(frozen=True)
 class Marker:
-    """A singularity as the scene sees it: a position in space, a valence, and its state."""
+    """A singularity as the scene sees it: a position in space, a valence, and its state.
+
+    Its normal is that of the surface there, of any length; zero: not known.
+    """
 
     position: tuple[float, float, float]
     valence: int
     selected: bool = False
     locked: bool = False
+    normal: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,6 +100,8 @@ class Quads:
         Positions of the irregular vertices.
     valences : (k,) int, optional
         Of the irregular vertices.
+    normals : (k, 3) float, optional
+        Likewise; of any length.
     apart : bool
         Whether patches share no points, so that points in one place are to be found.
     """
@@ -106,4 +112,5 @@ class Quads:
     quality: FloatArray | None = None
     irregular: FloatArray = field(default_factory=lambda: np.empty((0, 3)))
     valences: IntArray = field(default_factory=lambda: np.empty(0, int))
+    normals: FloatArray = field(default_factory=lambda: np.empty((0, 3)))
     apart: bool = False

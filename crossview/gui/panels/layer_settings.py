@@ -43,6 +43,8 @@ class LayerEditor(QWidget):
         self._name = kind.name
         self._session = session
         self._refresh: list[Callable[[LayerSettings], None]] = []
+        self.show_limits: Callable[[tuple[float, float]], None] = lambda _: None
+        """Follows the range in use, where one is fitted."""
         self._form = QFormLayout(self)
         self._form.setContentsMargins(10, 4, 10, 4)
         self._form.setVerticalSpacing(6)
@@ -54,6 +56,7 @@ class LayerEditor(QWidget):
             "value_range": self._add_range,
             "uniform": lambda: self._add_check("One size", "uniform"),
             "edges": lambda: self._add_check("Edges", "edges"),
+            "shaded": lambda: self._add_check("Shaded", "shaded"),
             "coloring": self._add_coloring,
         }
         for setting in kind.settings:
@@ -131,7 +134,8 @@ class LayerEditor(QWidget):
         self._refresh.append(refresh)
 
     def _add_range(self) -> None:
-        auto = QCheckBox("Range 0 to 1" if self._name == "quads" else "Fit range to data")
+        auto = QCheckBox("Fit range to 98 %")
+        auto.setToolTip("Leave out the far ends, which few places reach")
         low, high = _number(-1.0), _number(1.0)
         low.setAccessibleName("Least value of the colours")
         high.setAccessibleName("Largest value of the colours")
@@ -156,6 +160,13 @@ class LayerEditor(QWidget):
                     low.setValue(settings.value_range[0])
                     high.setValue(settings.value_range[1])
 
+        def fitted(limits: tuple[float, float]) -> None:
+            if auto.isChecked():
+                with QSignalBlocker(low), QSignalBlocker(high):
+                    low.setValue(limits[0])
+                    high.setValue(limits[1])
+
+        self.show_limits = fitted
         auto.toggled.connect(changed)
         low.valueChanged.connect(changed)
         high.valueChanged.connect(changed)

@@ -73,6 +73,10 @@ class LayersPanel(QWidget):
             if appeared and new.layers[kind.name].visible:
                 self._show_settings(kind.name)  # they are at hand
 
+    def show_limits(self, name: str, limits: tuple[float, float]) -> None:
+        """Say which range a scalar is drawn with."""
+        self.editors[name].show_limits(limits)
+
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Show the settings of the scalar when its box is gone to."""
         if event.type() == QEvent.Type.FocusIn:

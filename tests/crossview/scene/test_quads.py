@@ -141,9 +141,10 @@ class TestQuads:
         assert actors["crosses"].GetVisibility()
         assert not near(stage.color_at((0.36, 0.4, 0.0)), SURFACE)
 
-    def test_quality_is_sequential_from_0_to_1(self, stage: Stage) -> None:
+    def test_quality_is_sequential(self, stage: Stage) -> None:
         quality = np.repeat([0.0, 0.5, 1.0, -0.7], 4)
         shown = view(["quads"], quads=plate_quads(quality=quality))
+        shown = shown.with_layer("quads", value_range=(0.0, 1.0))
         stage.scene.show(shown)
         stage.scene.fit()
         assert stage.scene.limits == (0.0, 1.0)
@@ -153,6 +154,13 @@ class TestQuads:
         stage.scene.show(shown.with_layer("quads", value_range=(0.5, 1.0)))
         assert stage.scene.limits == (0.5, 1.0)
         assert np.abs(stage.color_at((-0.14, 0.11, 0.0)) - table[0]).max() <= 4
+
+    def test_the_range_of_quality_is_what_occurs(self, stage: Stage) -> None:
+        quality = np.linspace(0.87, 0.99, 16)
+        stage.scene.show(view(["quads"], quads=plate_quads(quality=quality)))
+        low, high = stage.scene.limits
+        assert high == 1.0
+        assert 0.8 < low <= 0.87
 
     def test_patches_next_to_each_other_differ(self, stage: Stage, near: Near) -> None:
         shown = view(["quads"], quads=plate_quads(5, 3)).with_layer("quads", coloring="patch")
