@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from crossview.cli.options import FeatureOptions, Output, Quiet
-from crossview.cli.terminal import say, watch
+from crossview.cli.options import NewCase
 from crossview.workflow import configurations
 from crossview.workflow.problem import Problem
 from solvers.fields import CURVATURE_WEIGHT, MOST_VALENCE, NATURAL_ALIGNMENTS, NATURAL_METHODS
@@ -13,7 +12,6 @@ def natural(
     surface: str,
     /,
     *,
-    output: Output,
     method: str = NATURAL_METHODS[0],
     seed: int = 0,
     alignment: str = NATURAL_ALIGNMENTS[0],
@@ -22,8 +20,7 @@ def natural(
     fewest: bool = False,
     most: int | None = None,
     scale: float | None = None,
-    chosen: FeatureOptions = FeatureOptions(),
-    quiet: Quiet = False,
+    new: NewCase,
 ) -> None:
     """Place the singularities of a smooth cross-field aligned with boundaries and features.
 
@@ -31,8 +28,6 @@ def natural(
     ----------
     surface
         A surface file, a case (its singularities are replaced) or the name of a built-in surface.
-    output
-        The new case file.
     method
         mbo, ginzburg-landau or globally-optimal.
     seed
@@ -50,7 +45,7 @@ def natural(
     scale
         Length below which details of the surface do not count, in its units.
     """
-    found = chosen.case(surface)
+    found = new.chosen.case(surface)
     given = Problem.from_case(found)
     computation = configurations.natural(
         given,
@@ -63,7 +58,5 @@ def natural(
         most=most,
         scale=scale,
     )
-    problem = watch(computation, quiet)
-    problem.to_case(found.surface, found.title).save(output)
-    if not quiet:
-        say(f"{len(problem.singularities)} singularities; wrote {output}")
+    problem = new.watch(computation)
+    new.write(found, problem, f"{len(problem.singularities)} singularities")

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Generator
 from dataclasses import asdict, dataclass
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeVar
 
 from cyclopts import Group, Parameter
 
 from crossview.cases.gallery import find_case
 from crossview.cases.model import Case
+from crossview.cli.terminal import say, watch
+from crossview.workflow.problem import Problem
 from crossview.workflow.quads import MeshOptions
 from solvers.errors import CrossviewError
+from solvers.progress import Progress
 from solvers.quads import MAX_CHORD
+
+T = TypeVar("T")
 
 Output = Annotated[str, Parameter(name=["--output", "-o"])]
 Flag = Annotated[bool, Parameter(negative="", show_default=False)]
@@ -72,6 +78,42 @@ class FeatureOptions(SurfaceOptions):
     """
 
     features: float | None = None
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class NewCase:
+    """What commands take that make a case of another by placing its singularities anew.
+
+    Parameters
+    ----------
+    output
+        The new case file.
+    """
+
+    output: Output
+    chosen: FeatureOptions = FeatureOptions()
+    quiet: Quiet = False
+
+    def watch(self, computation: Generator[Progress, None, T]) -> T:
+        """Run a computation, as `crossview.cli.terminal.watch`."""
+        return watch(computation, self.quiet)
+
+    def write(self, found: Case, made: Problem, summary: str) -> None:
+        """Write the new case and say what came of it.
+
+        Parameters
+        ----------
+        found : Case
+            The one it is made of.
+        made : Problem
+            With its singularities placed anew.
+        summary : str
+            The line on it, without the file.
+        """
+        made.to_case(found.surface, found.title).save(self.output)
+        if not self.quiet:
+            say(f"{summary}; wrote {self.output}")
 
 
 @Parameter(name="*", group=CASE)

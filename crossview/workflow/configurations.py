@@ -98,7 +98,11 @@ def make_valid(problem: Problem) -> Generator[Progress, None, tuple[Problem, Mov
         As `solvers.validity.make_valid`.
     """
     end = yield from moved_to_validity(
-        problem.surface, problem.singularities, problem.corners, problem.options.refine
+        problem.surface,
+        problem.singularities,
+        problem.corners,
+        problem.options.refine,
+        features=problem.features,
     )
     return replace(problem, singularities=end.singularities), end
 
@@ -127,6 +131,7 @@ def improve(problem: Problem) -> Generator[Progress, None, tuple[Problem, Improv
         problem.corners,
         problem.options.refine,
         wanted=wanted if wanted is None or wanted.ndim == 1 else np.sqrt(wanted.prod(axis=1)),
+        features=problem.features,
     )
     return replace(problem, singularities=end.singularities), end
 

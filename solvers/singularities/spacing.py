@@ -1,4 +1,4 @@
-"""How far singularities keep from each other and from the boundary."""
+"""How far singularities keep from each other, from the boundary and from features."""
 
 from __future__ import annotations
 
@@ -39,15 +39,21 @@ class Spacing:
         Where they start.
     free : (k,) bool array
         Which of them move; the distances of the others among themselves do not count.
+    walls : (ne,) bool array
+        Edges of the surface from which they keep as from the boundary.
     """
 
     def __init__(
-        self, surface: TriSurface, singularities: Sequence[Singularity], free: BoolArray
+        self,
+        surface: TriSurface,
+        singularities: Sequence[Singularity],
+        free: BoolArray,
+        walls: BoolArray,
     ) -> None:
         self._surface = surface
         self._free = free
         closest = CLOSEST * np.sqrt(surface.area)
-        rim = _along_boundary(surface, PITCH * closest)
+        rim = _along(surface, walls | (surface.edge_faces[:, 1] < 0), PITCH * closest)
         self._rim = cKDTree(rim) if len(rim) else None
         x = surface.positions([s.point for s in singularities])
         self._pair_limit = np.minimum(closest, 0.5 * _gaps(x))
@@ -60,7 +66,7 @@ class Spacing:
         return np.empty((0, 2 * len(self._free))), np.empty(0)
 
     def too_near(self, singularities: Sequence[Singularity]) -> IntArray:
-        """Return (p, 2) pairs that are too near; -1 in the place of the second is the boundary."""
+        """Return (p, 2) pairs that are too near; -1 in the place of the second is the rim."""
         x = self._surface.positions([s.point for s in singularities])
         pairs = np.argwhere(np.triu(_gaps(x) < self._pair_limit, 1))
         rim = np.flatnonzero(self._to_rim(x)[0] < self._rim_limit)
@@ -114,9 +120,9 @@ class Spacing:
         return np.asarray(distance), np.asarray(self._rim.data[nearest])
 
 
-def _along_boundary(surface: TriSurface, pitch: float) -> FloatArray:
-    """Return points (p, 3) along the boundary, next to each other no farther than `pitch`."""
-    tail, head = surface.vertices[surface.edges[surface.edge_faces[:, 1] < 0]].transpose(1, 0, 2)
+def _along(surface: TriSurface, edges: BoolArray, pitch: float) -> FloatArray:
+    """Return points (p, 3) along edges, next to each other no farther than `pitch`."""
+    tail, head = surface.vertices[surface.edges[edges]].transpose(1, 0, 2)
     count = np.ceil(np.linalg.norm(head - tail, axis=1) / pitch).astype(np.int64)
     edge = np.repeat(np.arange(len(count)), count)
     part = (np.arange(len(edge)) - (np.cumsum(count) - count)[edge]) / count[edge]

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from solvers.number_checks import real_numbers
 from solvers.surface.points import SurfacePoint
-from solvers.surface.triangulation import FloatArray
+from solvers.surface.triangulation import BoolArray, FloatArray
 from solvers.surface.trisurface import TriSurface
 
 
@@ -45,10 +45,16 @@ class Walk:
     turn: float
 
 
-def straightest(surface: TriSurface, start: SurfacePoint, vector: npt.ArrayLike) -> Walk:
+def straightest(
+    surface: TriSurface,
+    start: SurfacePoint,
+    vector: npt.ArrayLike,
+    walls: BoolArray | None = None,
+) -> Walk:
     """Return where a straight walk on the surface ends.
 
-    The walk goes straight on through triangles unfolded into one plane; at the boundary it ends.
+    The walk goes straight on through triangles unfolded into one plane; at the boundary it ends,
+    and at walls.
 
     Parameters
     ----------
@@ -58,6 +64,8 @@ def straightest(surface: TriSurface, start: SurfacePoint, vector: npt.ArrayLike)
         Where the walk starts.
     vector : (2,) array_like
         Its direction and length, in the frame of the start's triangle.
+    walls : (ne,) bool array, optional
+        Which edges of the surface it does not cross.
 
     Returns
     -------
@@ -110,7 +118,7 @@ def straightest(surface: TriSurface, start: SurfacePoint, vector: npt.ArrayLike)
         place = place + step * left
         h = 3 * face + side
         g = int(t.twin[h])
-        if g < 0:
+        if g < 0 or (walls is not None and walls[surface.face_edges[face, side]]):
             return Walk(_point(surface, face, place), turned)
         left = (1 - step) * left
         along = np.linalg.norm(place - corners[side]) / np.linalg.norm(sides[side])

@@ -15,6 +15,7 @@ from itertools import product
 import numpy as np
 
 from solvers.errors import SingularityError
+from solvers.features.edges import Features, no_features
 from solvers.fields.connection import Condition
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.progress import Progress, relayed
@@ -116,6 +117,8 @@ def make_valid(
     singularities: Iterable[Singularity],
     corners: Mapping[int, int] | None = None,
     levels: int = LEVELS,
+    *,
+    features: Features | None = None,
 ) -> Generator[Progress, None, Moved]:
     """Move the unlocked singularities until every holonomy defect is below 1e-6 degrees.
 
@@ -129,6 +132,8 @@ def make_valid(
         As for `IsotropicSolver`.
     levels : int, optional
         Of refinement at the singularities, for the final check.
+    features : Features, optional
+        Of the surface. No singularity crosses one, and one on a feature stays.
 
     Returns
     -------
@@ -171,20 +176,26 @@ def make_valid(
     start = checked_singularities(singularities)
     solver = IsotropicSolver(surface, corners)
     require_budget(surface, start, solver.corners)
-    return (yield from _Attempt(solver, corners, levels).make_valid(start))
+    along = no_features(surface) if features is None else features.require_on(surface)
+    return (yield from _Attempt(solver, corners, levels, along).make_valid(start))
 
 
 class _Attempt:
     """Tries on one surface; the operator and its potentials are kept."""
 
     def __init__(
-        self, solver: IsotropicSolver, corners: Mapping[int, int] | None, levels: int
+        self,
+        solver: IsotropicSolver,
+        corners: Mapping[int, int] | None,
+        levels: int,
+        features: Features,
     ) -> None:
         self._surface = solver.surface
         self._guide = solver.holonomy
         self._corners = corners
         self._index = solver.corners
         self._levels = levels
+        self._features = features
 
     def make_valid(self, start: tuple[Singularity, ...]) -> Generator[Progress, None, Moved]:
         """Take the nearest layout that can be reached, or say what helps."""
@@ -206,7 +217,7 @@ class _Attempt:
         """Try layouts one after the other; what blocks the first tells why all failed."""
         first: Blocked | None = None
         for turns in aims:
-            search = Search(self._surface, self._guide, start)
+            search = Search(self._surface, self._guide, start, self._features)
             try:
                 moved = yield from search.approach(start, turns)
                 end = yield from search.verify(moved, turns, self._corners, self._levels)

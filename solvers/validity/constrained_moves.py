@@ -1,4 +1,7 @@
-"""Moves of all singularities at once: what they do to the defects, and how near they may come."""
+"""Moves of all singularities at once: what they do to the defects, and how near they may come.
+
+Features are walls: nobody crosses them, and who is on one stays there.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +11,8 @@ from enum import Enum
 
 import numpy as np
 
+from solvers.features.edges import Features
+from solvers.features.regions import in_one_region
 from solvers.fields.holonomy import Holonomy
 from solvers.singularities.budget import Singularity
 from solvers.singularities.spacing import Spacing
@@ -35,7 +40,7 @@ class Obstacle(Enum):
     """What ends the way to an aim; the value says it in plain words."""
 
     TOO_FEW = "too few singularities may move, or only some far away"
-    CROWDED = "singularities would come too near to each other or to the boundary"
+    CROWDED = "singularities would come too near to each other, to the boundary or to a feature"
     STALLED = "no small move brings them nearer"
     UNSETTLED = "the surface is too coarse for its defects to be told"
 
@@ -85,7 +90,9 @@ class ConstrainedMoves:
     guide : Holonomy
         Its holonomy potentials.
     singularities : sequence of Singularity
-        Where they start; those locked, and those of index 0, stay.
+        Where they start; those locked, those of index 0 and those on features stay.
+    features : Features
+        Of the surface.
 
     Attributes
     ----------
@@ -98,15 +105,22 @@ class ConstrainedMoves:
     """
 
     def __init__(
-        self, surface: TriSurface, guide: Holonomy, singularities: Sequence[Singularity]
+        self,
+        surface: TriSurface,
+        guide: Holonomy,
+        singularities: Sequence[Singularity],
+        features: Features,
     ) -> None:
         self.surface, self.guide = surface, guide
+        self._walls = np.zeros(len(surface.edges), dtype=bool)
+        self._walls[features.edges] = True
         self.unit = float(np.sqrt(surface.area))
         index = np.array([s.index for s in singularities], dtype=np.float64)
         self.free: BoolArray = np.array([not s.locked for s in singularities], dtype=bool)
         self.free &= index != 0
+        self.free &= in_one_region(features, [s.point for s in singularities]).diagonal()
         self.weight = QUARTER * index * self.free
-        self.spacing = Spacing(surface, singularities, self.free)
+        self.spacing = Spacing(surface, singularities, self.free, self._walls)
 
     def by_moves(self, gradients: FloatArray) -> FloatArray:
         """Return how the defects change with moves in the triangles' frames.
@@ -127,7 +141,7 @@ class ConstrainedMoves:
     def moved(self, singularities: tuple[Singularity, ...], moves: FloatArray) -> Step:
         """Return where straight walks take them; those that stay do."""
         walks = [
-            straightest(self.surface, s.point, d) if free else None
+            straightest(self.surface, s.point, d, self._walls) if free else None
             for s, d, free in zip(singularities, moves, self.free, strict=True)
         ]
         places = tuple(

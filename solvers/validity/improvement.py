@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from solvers.errors import SingularityError
+from solvers.features.edges import Features, no_features
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.progress import Progress
 from solvers.singularities.budget import Singularity, checked_singularities, require_budget
@@ -25,7 +26,6 @@ from solvers.validity.constrained_moves import (
     LONGEST_STEP,
     Blocked,
     ConstrainedMoves,
-    Obstacle,
     Step,
     least_moves,
     rotations,
@@ -38,7 +38,7 @@ Places = tuple[Singularity, ...]
 STEPS = 100
 """Steps of the descent at most. Chosen: 12 to 30 are usual."""
 
-ENOUGH, PATIENCE = 1e-3, 3
+ENOUGH, PATIENCE = 1e-4, 3
 """Relative gain of a step below which it counts as none, and how many such end the descent.
 
 Chosen.
@@ -112,6 +112,7 @@ def improve(
     levels: int = LEVELS,
     *,
     wanted: FloatArray | None = None,
+    features: Features | None = None,
 ) -> Generator[Progress, None, Improved]:
     """Move the unlocked singularities to where sizes are most even, all defects kept at zero.
 
@@ -127,6 +128,8 @@ def improve(
         Of refinement at the singularities, for the final check.
     wanted : (n,) array_like, optional
         Size wanted at each vertex of the surface; by default the same everywhere.
+    features : Features, optional
+        Of the surface. No singularity crosses one, and one on a feature stays.
 
     Returns
     -------
@@ -165,14 +168,17 @@ def improve(
     start = checked_singularities(singularities)
     solver = IsotropicSolver(surface, corners)
     require_budget(surface, start, solver.corners)
-    if not any(s.index and not s.locked for s in start):
-        raise SingularityError(
-            "no singularity may move", advice="unlock some" if start else "add some"
-        )
+    along = no_features(surface) if features is None else features.require_on(surface)
+    if not ConstrainedMoves(surface, solver.holonomy, start, along).free.any():
+        locked = all(s.locked for s in start if s.index)
+        advice = "move some off the features" if not locked else "unlock some"
+        raise SingularityError("no singularity may move", advice=advice if start else "add some")
     unevenness = Unevenness(solver, wanted)
     if np.abs(solver.holonomy.defects(start)).max(initial=0.0) > TOLERANCE:
-        start = (yield from make_valid(surface, start, corners, levels)).singularities
-    descent = _Descent(surface, solver, unevenness, start)
+        start = (
+            yield from make_valid(surface, start, corners, levels, features=along)
+        ).singularities
+    descent = _Descent(surface, solver, unevenness, start, along)
     before, none = descent.sizes, (0,) * len(solver.holonomy.conditions)
 
     def told(stage: str, done: float, at: Places, off: FloatArray, sizes: Sizes) -> Improved:
@@ -185,7 +191,7 @@ def improve(
             break
         passed.append(descent.singularities)
     while len(passed) > 1:
-        search = Search(surface, solver.holonomy, passed[-1])
+        search = Search(surface, solver.holonomy, passed[-1], along)
         try:
             near = yield from search.approach(passed[-1], none)
             end = yield from search.verify(near, none, corners, levels)
@@ -209,9 +215,10 @@ class _Descent:
         solver: IsotropicSolver,
         unevenness: Unevenness,
         singularities: Places,
+        features: Features,
     ) -> None:
         self._guide, self._unevenness = solver.holonomy, unevenness
-        self._moves = ConstrainedMoves(surface, solver.holonomy, singularities)
+        self._moves = ConstrainedMoves(surface, solver.holonomy, singularities, features)
         self._memory: list[tuple[FloatArray, FloatArray]] = []
         self._in_vain = 0
         self._at(singularities, unevenness.sizes(singularities))
@@ -242,14 +249,16 @@ class _Descent:
             promised = min(float((slope * step.moves).sum()), 0.0)
             return sizes.variance < before + ARMIJO * promised
 
-        longest = float(np.linalg.norm(self._downhill(self._matrix), axis=1).max())
-        reach = (LONGEST_STEP if self._memory else FIRST) * self._moves.unit
-        share = min(1.0, reach / max(longest, 1e-300))
-        step = self._moves.advance(self.singularities, propose, accepted, share)
-        if isinstance(step, Obstacle):
-            remembered = bool(self._memory)
-            self._memory = []
-            return remembered  # once more, along the slope
+        while True:
+            longest = float(np.linalg.norm(self._downhill(self._matrix), axis=1).max())
+            reach = (LONGEST_STEP if self._memory else FIRST) * self._moves.unit
+            share = min(1.0, reach / max(longest, 1e-300))
+            step = self._moves.advance(self.singularities, propose, accepted, share)
+            if isinstance(step, Step):
+                break
+            if not self._memory:
+                return False
+            self._memory = []  # once more, along the slope
         at, turns, sizes = found[0]
         carried = rotations(turns)
         self._memory = [

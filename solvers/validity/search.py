@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from solvers.features.edges import Features
 from solvers.fields.holonomy import Holonomy
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.progress import Progress
@@ -88,15 +89,21 @@ class Search:
     guide : Holonomy
         Its holonomy potentials.
     singularities : sequence of Singularity
-        The configuration; those locked, and those of index 0, stay.
+        The configuration; those locked, those of index 0 and those on features stay.
+    features : Features
+        Of the surface; they are not crossed.
     """
 
     def __init__(
-        self, surface: TriSurface, guide: Holonomy, singularities: Sequence[Singularity]
+        self,
+        surface: TriSurface,
+        guide: Holonomy,
+        singularities: Sequence[Singularity],
+        features: Features,
     ) -> None:
         self._surface = surface
         self._guide = guide
-        self._moves = ConstrainedMoves(surface, guide, singularities)
+        self._moves = ConstrainedMoves(surface, guide, singularities, features)
 
     def approach(
         self, singularities: tuple[Singularity, ...], turns: tuple[int, ...], limit: int = 60

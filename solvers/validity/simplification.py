@@ -49,7 +49,7 @@ def simplify(
     levels : int, optional
         Of refinement at the singularities, for the final check.
     features : Features, optional
-        Of the surface; none on them is merged, and none across them.
+        Of the surface; none on them is merged, none across them, and none crosses one.
     most_valence : int, optional
         Of what is merged, 5 or more.
 
@@ -101,4 +101,4 @@ def simplify(
         for s, index in zip(start, np.rint(merging.index).astype(int).tolist(), strict=True)
         if index or s.locked
     )
-    return (yield from make_valid(surface, left, corners, levels))
+    return (yield from make_valid(surface, left, corners, levels, features=along))

@@ -23,7 +23,7 @@ def test_the_boundary_is_near_also_far_from_its_vertices(along: float, away: flo
     ]
     square = TriSurface(corners, [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
     start = [Singularity(square.closest_point([0.0, 0.1, 0.0]), 3)]
-    spacing = Spacing(square, start, np.array([True]))
+    spacing = Spacing(square, start, np.array([True]), np.zeros(len(square.edges), dtype=bool))
     height = -0.5 + away * CLOSEST  # of a square root of the area 1
     moved = [Singularity(square.closest_point([along, height, 0.0]), 3)]
     near = spacing.too_near(moved)
