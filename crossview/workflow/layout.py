@@ -9,7 +9,6 @@ import numpy as np
 from crossview.workflow.problem import Problem
 from crossview.workflow.solution import Solution
 from solvers.errors import CrossviewError
-from solvers.fields import IntegratedField, aligned_field
 from solvers.layouts import LayoutError, QuadLayout, Separatrices, quad_layout
 from solvers.progress import Progress
 from solvers.singularities import existence, require_budget
@@ -45,10 +44,13 @@ def layout(solution: Solution) -> Generator[Progress, None, QuadLayout]:
         The field misses a boundary or is not integrable, there is no quad mesh with these
         singularities, or triangles are inverted in the map.
     """
-    _require_trusted(solution)
+    mapped = solution.mapped
+    integrated = solution.integrated if mapped is None else mapped.integrated
+    if solution.verdict.refused or integrated is None:
+        raise _refusal(solution)
     yield Progress("aligning with the boundaries", 0.0)
-    fit = None if solution.mapped is None else solution.mapped.fit
-    return (yield from quad_layout(_integrated(solution), solution.verdict, fit))
+    fit = None if mapped is None else mapped.fit
+    return (yield from quad_layout(integrated, solution.verdict, fit))
 
 
 def layout_soon(solution: Solution) -> Generator[Progress, None, QuadLayout | None]:
@@ -82,11 +84,9 @@ def misaligned_boundaries(solution: Solution) -> tuple[IntArray, FloatArray]:
     return loops, surface.vertices[first].reshape(-1, 3)
 
 
-def _require_trusted(solution: Solution) -> None:
-    """Refuse what the verdict refuses; boundaries and curves that the field misses are counted."""
+def _refusal(solution: Solution) -> LayoutError:
+    """Why the verdict refuses it; boundaries and curves that the field misses are counted."""
     verdict, field = solution.verdict, solution.field
-    if not verdict.refused:
-        return
     missed = solution.limits.missed
     boundaries, curves = missed(field.boundary_misalignment), missed(field.feature_misalignment)
     what = f"no quads: {verdict.reason.rstrip('.')}"
@@ -96,18 +96,10 @@ def _require_trusted(solution: Solution) -> None:
         what = _misses(boundaries, "a boundary", "boundaries", field.boundary_misalignment)
     elif curves.any() and not missed(field.defects).any():
         what = _misses(curves, "a feature curve", "feature curves", field.feature_misalignment)
-    raise LayoutError(what, remedies=verdict.remedies)
+    return LayoutError(what, remedies=verdict.remedies)
 
 
 def _misses(missed: BoolArray, one: str, many: str, angles: FloatArray) -> str:
     count, worst = np.count_nonzero(missed), np.degrees(np.abs(angles).max())
     which = one if count == 1 else f"{count} {many}"
     return f"the field misses {which}, by up to {worst:.3g} degrees"
-
-
-def _integrated(solution: Solution) -> IntegratedField:
-    """The field in a form that has a map; an isotropic one may have to be solved again."""
-    if solution.integrated is not None:
-        return solution.integrated
-    aligned = aligned_field(solution.prepared, like=solution.field)
-    return IntegratedField(aligned, aligned.start)

@@ -1,4 +1,4 @@
-"""How each method that is not isotropic finds its field, and how its field is judged."""
+"""How each method that is not isotropic finds its field, and how the field of each gets its map."""
 
 from __future__ import annotations
 
@@ -9,12 +9,15 @@ from crossview.workflow.release import Solved, with_fewer_features
 from solvers.features import Features
 from solvers.fields import (
     AlignedField,
+    CrossField,
     IntegratedField,
     Limits,
+    PreparedSurface,
     aligned_field,
     alternating_field,
     anisotropic_field,
     holonomy_class,
+    judge,
 )
 from solvers.maps import MappedField, unfolded
 from solvers.progress import Progress, between
@@ -58,6 +61,16 @@ def integrate(
         return _integrated(method, fewer, options, sizes, limits)
 
     return (yield from between(with_fewer_features(first, solve), FIRST, 1.0))
+
+
+def isotropic_map(
+    prepared: PreparedSurface, field: CrossField, limits: Limits
+) -> MappedField | None:
+    """Return an isotropic field with its map; None if it is refused before."""
+    if judge(field, limits=limits).refused:
+        return None
+    aligned = aligned_field(prepared, like=field)
+    return MappedField.of(IntegratedField(aligned, aligned.start))
 
 
 def _features_may_be_why(first: Solved, method: str, options: Options) -> bool:

@@ -12,7 +12,7 @@ import numpy as np
 
 from crossview.cases.model import Case
 from crossview.workflow.layout import require_possible
-from crossview.workflow.methods import integrate, with_map
+from crossview.workflow.methods import integrate, isotropic_map, with_map
 from crossview.workflow.problem import Problem, problems_of
 from crossview.workflow.sizes import read_sizes, refined_sizes
 from crossview.workflow.solution import Solution
@@ -83,9 +83,12 @@ class Pipeline:
             with _timed(seconds, "solve"):
                 solver = in_joining_gauge(solver, prepared.singularities)
                 field = solver.solve(prepared.singularities)
-            yield Progress("checking the holonomy", 0.8)
             limits = _limits(problem, solver)
-            solution = _solution(problem, prepared, solver, field, limits, seconds)
+            yield Progress("fitting the seamless map", 0.7)
+            with _timed(seconds, "map"):
+                mapped = isotropic_map(prepared, field, limits)
+            yield Progress("judging", 0.9)
+            solution = _solution(problem, prepared, solver, field, limits, seconds, None, mapped)
         else:
             yield Progress("aligning with the boundaries", 0.2)
             with _timed(seconds, "align"):

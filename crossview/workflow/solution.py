@@ -54,7 +54,7 @@ class Solution:
     verdict : Verdict
         What the field is worth, and what helps.
     mapped : MappedField, or None
-        The field with its seamless map; None where it has none, or a theorem says so.
+        The field with its seamless map; None where it is refused before, or is not integrable.
 
     Examples
     --------

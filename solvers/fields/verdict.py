@@ -154,7 +154,7 @@ def judge(
     field : CrossField
         What to judge.
     inverted : int, optional
-        Inverted triangles in its seamless map; None where there is no such map.
+        Inverted triangles in its seamless map; None where none was made: then it is not valid.
     limits : Limits, optional
         What is valid.
     wrong_windings : int, optional
@@ -183,7 +183,7 @@ def judge(
     >>> from solvers.singularities import Singularity
     >>> surface = torus(n=24)
     >>> solver = IsotropicSolver(surface)
-    >>> judge(solver.solve([])).status  # aligned with itself all around
+    >>> judge(solver.solve([]), inverted=0).status  # aligned with itself all around
     'valid'
     >>> places = [surface.closest_point([x, 0.0, 0.0]) for x in (1.4, -0.6)]
     >>> pair = [Singularity(places[0], valence=3), Singularity(places[1], valence=5)]
@@ -254,6 +254,8 @@ def _judge_integrability(field: CrossField, limits: Limits) -> Verdict | None:
 
 def _judge_map(field: CrossField, inverted: int | None, wrong_windings: int) -> Verdict:
     """Judge what is aligned and integrable."""
+    if inverted is None:
+        return Verdict("not found", "The field is aligned and integrable; no map was made of it.")
     if inverted:
         which = "1 triangle is" if inverted == 1 else f"{inverted} triangles are"
         return Verdict("not found", f"{which} inverted in the seamless map.")
@@ -266,8 +268,7 @@ def _judge_map(field: CrossField, inverted: int | None, wrong_windings: int) -> 
     if field.max_log_aspect > EXTREME_ASPECT:
         ratio = np.exp(field.max_log_aspect)
         return Verdict("stretched", f"The two sizes differ by a factor of {ratio:.0f}.")
-    mapped = "" if inverted is None else ", and its map has no inverted triangle"
-    return Verdict("valid", f"The field is aligned and integrable{mapped}.")
+    return Verdict("valid", "The field is aligned and integrable, and its map is injective.")
 
 
 def _worst(angles: FloatArray) -> float:

@@ -10,6 +10,7 @@ import pytest
 from crossview.cases.json_values import CaseError
 from crossview.cases.model import Builtin, Case, Options, PlacedCorner, PlacedSingularity
 from crossview.export.report import report, summary
+from crossview.workflow.layout import layout
 from crossview.workflow.pipeline import Pipeline, solve_case
 from crossview.workflow.problem import Problem
 from solvers.errors import SingularityError
@@ -109,7 +110,8 @@ def test_progress_grows_and_names_its_stages() -> None:
     fractions = [step.fraction for step in steps]
     assert fractions == sorted(fractions)
     assert steps[0].stage == "reading the surface"
-    assert list(solution.seconds) == ["read", "refine", "factor", "solve", "holonomy", "verdict"]
+    stages = ["read", "refine", "factor", "solve", "map", "holonomy", "verdict"]
+    assert list(solution.seconds) == stages
 
 
 def test_a_problem_becomes_the_case_it_came_from() -> None:
@@ -134,3 +136,23 @@ def test_all_components_are_no_single_problem() -> None:
     case = replace(annulus(), options=Options(component="all"))
     with pytest.raises(CaseError, match="one is wanted"):
         Problem.from_case(case)
+
+
+@pytest.mark.parametrize("valence", [10, 12])
+def test_what_is_called_valid_has_a_map_and_its_layout(valence: int) -> None:
+    """On a sphere any budget has its field; a high valence among few triangles is hard to map."""
+    threes = np.random.default_rng(1).normal(size=(valence + 4, 3))
+    placed = [PlacedSingularity((0.0, 0.0, 1.0), valence)]
+    placed += [PlacedSingularity(tuple(p / np.linalg.norm(p)), 3) for p in threes]
+    surface = Builtin("sphere", {"subdivisions": 2})
+    case = Case(surface, tuple(placed), options=Options(refine=0))
+    solution = run(Pipeline().solve(Problem.from_case(case)))
+    told = report(solution)
+    assert (told["verdict"], told["flips"], told["wrong_windings"]) == ("valid", 0, 0)
+    assert run(layout(solution)).inverted == 0
+
+
+def test_a_field_that_is_refused_gets_no_map() -> None:
+    solution = run(Pipeline().solve(Problem.from_case(annulus(3, 5))))
+    assert solution.verdict.refused
+    assert solution.mapped is None

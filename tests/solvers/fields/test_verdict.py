@@ -155,8 +155,14 @@ def test_inverted_triangles_are_told_before_windings_and_those_before_aspect(
     assert "Around 2 vertices" in wound.reason
     assert judge(stretched, 0).status == "stretched"
     assert inverted.status == wound.status == "not found"
-    assert "no inverted triangle" in judge(field, 0).reason
-    assert "map" not in judge(field).reason
+    assert "map is injective" in judge(field, 0).reason
+
+
+def test_without_a_map_nothing_is_valid_and_nothing_refused(field: CrossField) -> None:
+    stretched = replace(field, half_log_aspect=np.full((len(field.u), 3), 2.0), on_working=None)
+    for unmapped in (judge(field), judge(stretched)):
+        assert (unmapped.status, unmapped.refused) == ("not found", False)
+        assert "no map was made" in unmapped.reason
 
 
 def test_an_upright_map_that_winds_wrongly_around_a_vertex_is_not_valid(field: CrossField) -> None:
