@@ -565,8 +565,10 @@ def write_case(
     problem.to_case(source, title).save(path)
 
 
-def write_mesh(mesh: QuadMesh, path: str | os.PathLike[str]) -> None:
-    """Write a quad mesh to a file.
+def write_mesh(
+    mesh: QuadMesh, path: str | os.PathLike[str], *, allow_inverted: bool = False
+) -> None:
+    """Write a quad mesh to a file; none with an inverted quad unless that is allowed.
 
     Parameters
     ----------
@@ -574,11 +576,13 @@ def write_mesh(mesh: QuadMesh, path: str | os.PathLike[str]) -> None:
         What to write.
     path : path-like
         OBJ, VTK, VTU, PLY, glTF, GLB or MSH (Gmsh, with named boundaries).
+    allow_inverted : bool, optional
+        Write the mesh although a quad is inverted.
 
     Raises
     ------
     CrossviewError
-        The format is unknown or the file cannot be written.
+        The format is unknown, a quad is inverted, or the file cannot be written.
 
     Examples
     --------
@@ -588,7 +592,8 @@ def write_mesh(mesh: QuadMesh, path: str | os.PathLike[str]) -> None:
     """
     from crossview.export.meshes import write_mesh as write  # VTK is loaded when it is wanted
 
-    write(_require("mesh", mesh, QuadMesh), _path("mesh file", path))
+    mesh, path = _require("mesh", mesh, QuadMesh), _path("mesh file", path)
+    write(mesh, path, allow_inverted=allow_inverted)
 
 
 def write_solution(
@@ -598,6 +603,7 @@ def write_solution(
     layout: QuadLayout | None = None,
     quads: QuadMesh | None = None,
     formats: Sequence[str] = ("vtk", "obj"),
+    allow_inverted: bool = False,
 ) -> None:
     """Write report.json and the fields and curves of a solution as .vtp files for ParaView.
 
@@ -613,12 +619,14 @@ def write_solution(
         Of the layout: also them, and layout.vtp.
     formats : sequence of str, optional
         Those of `write_mesh` for the quads.
+    allow_inverted : bool, optional
+        Write the quads although one is inverted.
 
     Raises
     ------
     CrossviewError
-        The folder cannot be made or written, a format is unknown, or layout or quads are of
-        another solution.
+        The folder cannot be made or written, a format is unknown, a quad is inverted, or layout or
+        quads are of another solution.
 
     Examples
     --------
@@ -631,7 +639,8 @@ def write_solution(
     from crossview.export.report import write_solution as write  # VTK is loaded when it is wanted
 
     _require_together(solution, layout, quads)
-    write(solution, _path("folder", directory), layout, quads, formats)
+    folder = _path("folder", directory)
+    write(solution, folder, layout, quads, formats, allow_inverted=allow_inverted)
 
 
 def report(

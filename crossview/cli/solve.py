@@ -142,5 +142,6 @@ def _solved_into(
         one_of_many = case.options.component == "all"
         folder = directory / f"component-{number}" if one_of_many else directory
         folder.mkdir(exist_ok=True)
-        write_files(solution, folder, layout, made, () if number in spoiled else formats)
+        kinds = () if number in spoiled else formats
+        write_files(solution, folder, layout, made, kinds, inverted)
     return results

@@ -16,6 +16,7 @@ import pyvista as pv
 
 from crossview.export.vtk_bytes import save_vtk
 from crossview.io.staged_files import staged_file
+from crossview.workflow.certification import inverted
 from solvers.errors import CrossviewError
 from solvers.quads import QuadMesh
 from solvers.surface import FloatArray, IntArray
@@ -41,8 +42,10 @@ def check_kind(path: Path) -> None:
         )
 
 
-def write_mesh(mesh: QuadMesh, path: str | Path, kept: Iterable[str] = ()) -> None:
-    """Write a quad mesh whole or not at all.
+def write_mesh(
+    mesh: QuadMesh, path: str | Path, kept: Iterable[str] = (), *, allow_inverted: bool = False
+) -> None:
+    """Write a quad mesh whole or not at all; none with an inverted quad unless that is allowed.
 
     Parameters
     ----------
@@ -55,14 +58,21 @@ def write_mesh(mesh: QuadMesh, path: str | Path, kept: Iterable[str] = ()) -> No
         split along its shorter diagonal.
     kept : iterable of str
         Files that this one may not replace.
+    allow_inverted : bool, optional
+        Write the mesh although a quad is inverted.
 
     Raises
     ------
     CrossviewError
-        The format is unknown, or the file cannot be written.
+        The format is unknown, a quad is inverted, or the file cannot be written.
     """
     path = Path(path)
     check_kind(path)
+    fault = None if allow_inverted else inverted(mesh)
+    if fault is not None:
+        raise CrossviewError(
+            f"not written: {fault}", path.name, "try another number of quads, or allow inverted"
+        )
     with staged_file(path, kept) as made:
         WRITERS[path.suffix.lower()](mesh, made)
 

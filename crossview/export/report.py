@@ -163,6 +163,8 @@ def write_solution(
     layout: QuadLayout | None = None,
     quads: QuadMesh | None = None,
     formats: Sequence[str] = FORMATS,
+    *,
+    allow_inverted: bool = False,
 ) -> None:
     """Write report.json and surface, crosses, cut_graph, singularities and separatrices as .vtp.
 
@@ -173,13 +175,14 @@ def write_solution(
     Raises
     ------
     CrossviewError
-        A format is unknown, or `directory` cannot be made or written.
+        A format is unknown, a quad is inverted and that is not allowed, or `directory` cannot be
+        made or written.
     """
     formats = all_of_kind("formats", formats, str)
     for suffix in formats:
         check_kind(Path(f"quads.{suffix}"))
     with staged(directory) as staging:
-        write_files(solution, staging, layout, quads, formats)
+        write_files(solution, staging, layout, quads, formats, allow_inverted)
 
 
 def write_files(
@@ -188,6 +191,7 @@ def write_files(
     layout: QuadLayout | None = None,
     quads: QuadMesh | None = None,
     formats: Sequence[str] = FORMATS,
+    allow_inverted: bool = False,
 ) -> None:
     """Write the files of `write_solution` one by one into an existing folder."""
     save_vtk(separatrix_lines(separatrices(solution, layout)), directory / "separatrices.vtp")
@@ -201,7 +205,7 @@ def write_files(
         if layout is not None:
             save_vtk(layout_patches(layout), directory / "layout.vtp")
         for suffix in formats:
-            write_mesh(quads, directory / f"quads.{suffix}")
+            write_mesh(quads, directory / f"quads.{suffix}", allow_inverted=allow_inverted)
     text = json.dumps(
         report(solution, layout, quads, bool(formats)),
         indent=2,

@@ -17,7 +17,6 @@ from crossview.io import SUFFIXES
 from crossview.session.opening import Opening
 from crossview.session.session import Session
 from crossview.session.state import SessionState
-from solvers.errors import CrossviewError, counted
 
 CASES = {".json": "Case"}
 """Words for the suffix of case files."""
@@ -194,9 +193,8 @@ class Files:
         state = self._session.state
         if state.made.quads is not None and state.document is not None:
             kept = state.document.to_case().files
-            write = partial(write_mesh, state.made.quads, kept=kept)
-            inverted = 0 if state.made.certificate is None else state.made.certificate.inverted
-            self._write(_refuse(inverted) if inverted and not self._inverted_too else write, path)
+            made, allowed = state.made.quads, self._inverted_too
+            self._write(partial(write_mesh, made, kept=kept, allow_inverted=allowed), path)
 
     def _keep_copy(self) -> None:
         state = self._session.state
@@ -220,16 +218,3 @@ class Files:
 
     def _folder(self) -> str:
         return str(Path(self._source).parent) if Path(self._source).is_file() else str(Path.home())
-
-
-def _refuse(inverted: int) -> Callable[[Path], object]:
-    """What is done instead of writing quads of which some are inverted."""
-
-    def refuse(path: Path) -> None:
-        raise CrossviewError(
-            f"not saved: {counted(inverted, 'quad')} inverted",
-            path.name,
-            "make another number of quads, or tick Allow inverted in the Quads panel",
-        )
-
-    return refuse

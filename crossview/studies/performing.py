@@ -99,7 +99,7 @@ def perform(
         reason,
         "" if status == DONE else at,
         time.perf_counter() - begun,
-        {} if state is None else _figures(state),
+        {} if state is None else _figures(state, status == DONE and bool(_formats(task))),
         {} if status != DONE else _contents(folder),
     )
 
@@ -190,12 +190,12 @@ def _solved(state: _State) -> Solution:
     return state.solution
 
 
-def _figures(state: _State) -> dict[str, Any]:
+def _figures(state: _State, delivered: bool) -> dict[str, Any]:
     """What is known of a case: all of the report once it is solved."""
     if state.solution is None:
         placed = state.problem.singularities
         return {"method": state.problem.method, "singularities.count": len(placed)}
-    return figures(report(state.solution, state.layout, state.quads))
+    return figures(report(state.solution, state.layout, state.quads, delivered))
 
 
 def _keep(state: _State, task: Task, home: Path) -> None:
@@ -209,14 +209,22 @@ def _keep(state: _State, task: Task, home: Path) -> None:
         )
     if solution is None:
         return
-    formats = [name for name in kept if name not in ("case", "report", "fields")]
+    formats = _formats(task)
+    options = [step.options for step in task.steps if isinstance(step.options, Quads)]
+    inverted = any(of_quads.allow_inverted for of_quads in options)
     if "fields" in kept:
-        write_files(solution, state.folder, state.layout, state.quads, formats)
+        write_files(solution, state.folder, state.layout, state.quads, formats, inverted)
     elif state.quads is not None:
         for suffix in formats:
-            write_mesh(state.quads, state.folder / f"quads.{suffix}")
+            write_mesh(state.quads, state.folder / f"quads.{suffix}", allow_inverted=inverted)
     if "report" in kept and "fields" not in kept:
-        _write_json(state.folder / REPORT, report(solution, state.layout, state.quads))
+        told = report(solution, state.layout, state.quads, bool(formats))
+        _write_json(state.folder / REPORT, told)
+
+
+def _formats(task: Task) -> list[str]:
+    """The formats that quads are kept in."""
+    return [name for name in task.files if name not in ("case", "report", "fields")]
 
 
 def _write_json(path: Path, data: Any) -> None:

@@ -62,6 +62,9 @@ class Quads:
     smooth: bool = field(
         default=True, metadata=key(Flag(), "Whether vertices slide to better quads.")
     )
+    allow_inverted: bool = field(
+        default=False, metadata=key(Flag(), "Whether they are kept although one is inverted.")
+    )
 
     @property
     def mesh_options(self) -> MeshOptions:

@@ -9,7 +9,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from crossview.certificate import Certificate, Faces, Irregular, Reference, Sizes, certify
+from crossview.certificate import Certificate, Faces, Fault, Irregular, Reference, Sizes, certify
 from crossview.io import read_polygons
 from crossview.workflow.problem import Problem
 from crossview.workflow.solution import Solution
@@ -91,6 +91,18 @@ def certified(solution: Solution, mesh: QuadMesh) -> Certificate:
     if mesh not in _GIVEN:
         _GIVEN[mesh] = _certified(solution, mesh)
     return _GIVEN[mesh]
+
+
+def inverted(mesh: QuadMesh) -> Fault | None:
+    """What the certificate of a mesh says of inverted quads; None: there are none.
+
+    Of a mesh that has no certificate yet one is made, on its own surface.
+    """
+    surface = mesh.surface
+    own = _GIVEN.get(mesh) or certify(
+        faces_of(mesh), Reference(Faces.of_one_size(surface.vertices, surface.faces))
+    )
+    return next((fault for fault in own.faults if fault.kind == "inverted"), None)
 
 
 def verdict(certificate: Certificate) -> str:

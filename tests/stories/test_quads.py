@@ -15,6 +15,7 @@ from crossview.cases.model import Case
 from crossview.gui.panels.quads import COUNT, LENGTH, NOTHING, STALE, QuadsPanel
 from crossview.session.state import SessionState
 from crossview.view.colors import BAD, CROSS, GOOD, MARK_WARNING, PATCHES, QUAD_EDGE, valence_color
+from tests.inverted import INVERTED
 from tests.windowing import Hand, count_color
 
 BLUE = valence_color(3)
@@ -291,17 +292,7 @@ def test_the_layout_layer_says_why_each_time_it_is_shown(hand: Hand, isotropic_p
 
 
 def test_inverted_quads_are_saved_only_when_that_is_allowed(hand: Hand, tmp_path: Path) -> None:
-    # one quad alone at the inner corner of an L, of 270 degrees: no mesh has it upright
-    outer = [(-1, -1), (1, -1), (1, 0), (0, 1), (-1, 1)]
-    case = {
-        "surface": {"builtin": "l_shape"},
-        "singularities": [
-            {"position": place, "valence": 5} for place in ([-0.5, 0.3, 0], [0.3, -0.5, 0])
-        ],
-        "corners": [{"position": [x, y, 0], "index": 1} for x, y in [*outer, (0, 0)]],
-        "method": "anisotropic",
-    }
-    (tmp_path / "l.json").write_text(json.dumps(case))
+    (tmp_path / "l.json").write_text(json.dumps(INVERTED))
     hand.open(tmp_path / "l.json")
     panel = hand.window.quads_panel
     panel.count_box.setValue(200)
@@ -310,7 +301,7 @@ def test_inverted_quads_are_saved_only_when_that_is_allowed(hand: Hand, tmp_path
     assert panel.said.text().startswith("1 inverted face")
     assert mark(panel) == BAD
     hand.window.files.save_quads(tmp_path / "quads.obj")
-    assert "not saved: 1 quad inverted" in hand.said
+    assert "not written: 1 inverted face" in hand.said
     assert not (tmp_path / "quads.obj").exists()
     assert panel.allow_inverted.isVisibleTo(panel)
     panel.allow_inverted.click()

@@ -7,16 +7,15 @@ from pathlib import Path
 
 import pytest
 
-from tests.command_line import CaseFile, Crossview, Ran, refused
+from tests.command_line import Crossview, Ran, refused
+from tests.inverted import INVERTED
 
 
 @pytest.fixture
-def spoiled(case_file: CaseFile) -> Path:
-    """One quad alone at the inner corner of an L, of 270 degrees: no mesh has it upright."""
-    outer = [(-1, -1), (1, -1), (1, 0), (0, 1), (-1, 1)]
-    corners = [{"position": [x, y, 0], "index": 1} for x, y in [*outer, (0, 0)]]
-    fives = [((-0.5, 0.3, 0), 5), ((0.3, -0.5, 0), 5)]
-    return case_file({"builtin": "l_shape"}, fives, corners=corners, method="anisotropic")
+def spoiled(tmp_path: Path) -> Path:
+    path = tmp_path / "l.json"
+    path.write_text(json.dumps(INVERTED))
+    return path
 
 
 def told(ran: Ran) -> str:

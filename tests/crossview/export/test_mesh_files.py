@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import meshio
@@ -10,6 +11,7 @@ import numpy as np
 import pytest
 import pyvista as pv
 
+import crossview
 from crossview.export.meshes import WRITERS, boundary_edges, write_mesh
 from crossview.io import read_surface
 from solvers.errors import CrossviewError
@@ -31,6 +33,19 @@ def test_quads_come_back_as_they_are(mesh: QuadMesh, tmp_path: Path, suffix: str
     assert np.array_equal(back.cells_dict["quad"], mesh.quads)
     assert {cells.type for cells in back.cells} <= {"quad", "line"}
     assert [p.name for p in tmp_path.iterdir()] == [path.name]
+
+
+def test_a_mesh_with_an_inverted_quad_is_written_only_when_that_is_allowed(tmp_path: Path) -> None:
+    mesh = GRIDS["square"]()
+    vertices = mesh.vertices.copy()
+    inner = np.flatnonzero(~mesh.on_boundary)[0]
+    vertices[inner] = 1.5 * vertices.max(axis=0) - 0.5 * vertices.min(axis=0)
+    spoiled, path = replace(mesh, vertices=vertices), tmp_path / "quads.obj"
+    with pytest.raises(CrossviewError, match=r"not written: \d inverted faces? .*allow inverted"):
+        crossview.write_mesh(spoiled, path)
+    assert not path.exists()
+    crossview.write_mesh(spoiled, path, allow_inverted=True)
+    assert path.exists()
 
 
 @pytest.mark.parametrize("suffix", WRITERS)

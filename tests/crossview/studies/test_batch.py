@@ -17,6 +17,7 @@ from crossview.studies.ledger import LINES
 from crossview.studies.plan import Refusal, plan
 from crossview.studies.study import Study
 from tests.command_line import Crossview, refused
+from tests.inverted import INVERTED
 
 ANNULUS = {
     "surface": {"builtin": "annulus", "n": 48},
@@ -46,6 +47,22 @@ def test_a_sweep_finds_the_defect_that_theory_tells(tmp_path: Path) -> None:
     defects = [abs(row["holonomy.defect_degrees.max"]) for row in rows]
     # the circles are polygons of 48 sides
     assert defects == pytest.approx(np.degrees(angles) / 4, rel=1e-3)
+
+
+def test_inverted_quads_are_kept_only_when_that_is_allowed(tmp_path: Path) -> None:
+    quads = {"target_quads": 200}
+    study = {
+        "cases": [INVERTED],
+        "vary": {"quads.allow_inverted": [False, True]},
+        "steps": ["solve", {"quads": quads}],
+        "files": ["obj"],
+    }
+    refusal, kept = library.batch(study, tmp_path, workers=1)
+    assert (refusal["status"], refusal["step"]) == ("failed", "writing")
+    assert refusal["reason"].startswith("not written: 1 inverted face with a corner")
+    assert (refusal["quads.inverted"], refusal["quads.delivered"]) == (1, False)
+    assert (kept["status"], kept["quads.delivered"]) == ("done", True)
+    assert [path.name for path in tmp_path.rglob("*.obj")] == ["quads.obj"]
 
 
 def test_the_table_has_what_the_report_has(crossview: Crossview, tmp_path: Path) -> None:
