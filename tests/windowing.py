@@ -56,8 +56,9 @@ class Hand:
     @property
     def said(self) -> str:
         """What the message says."""
-        assert self.state.message is not None
-        return self.state.message.text
+        message = self.state.message
+        assert message is not None
+        return ": ".join(part for part in (message.text, message.below) if part)
 
     def open(self, target: str | Path) -> None:
         """Open something; changes that are not saved are given up without a question."""

@@ -415,9 +415,9 @@ ACTIONS: tuple[ActionSpec, ...] = (
 
 TOOLBAR: tuple[str, ...] = (
     "open", "|", "undo", "redo", "|", "select", "add-3", "add-5", "add-6", "add-8", "add-any",
-    "any-valence", "|", "method", "solve", "stop", "->", "fit", "figure", "mesh",
+    "any-valence", "|", "method", "solve-or-stop", "->", "fit", "figure", "mesh",
 )  # fmt: skip
 """Names of actions; "|" is a line, "->" pushes the rest to the right."""
 
-LABELLED = ("open", "solve", "stop", "figure", "mesh")
+LABELLED = ("open", "figure", "mesh")
 """Actions of the toolbar with their words beside the icon."""

@@ -58,5 +58,5 @@ def diagnostics(state: SessionState) -> str:
             f"valences {[s.valence for s in state.document.singularities]}, {state.method}",
         ]
     if state.message is not None:
-        lines += [state.message.text, state.message.details]
+        lines += [state.message.text, state.message.below, state.message.details]
     return "\n".join(line for line in lines if line)

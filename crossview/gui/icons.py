@@ -6,15 +6,15 @@ from collections.abc import Callable
 from functools import cache
 from importlib.resources import files
 
-from PySide6.QtCore import QByteArray, QRectF, Qt
+from PySide6.QtCore import QByteArray, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QIcon, QPainter, QPalette, QPen, QPixmap
 from PySide6.QtSvg import QSvgRenderer
 from PySide6.QtWidgets import QApplication
 
-from crossview.view.colors import valence_color
+from crossview.view.colors import BAD, GOOD, UNSURE, WAITING, valence_color
 
-SIZES = (16, 20, 32, 40)
-"""Sizes that an icon is drawn in, in pixels: of menus and toolbars, and twice as fine."""
+SIZES = (14, 16, 20, 28, 32, 40)
+"""Sizes that an icon is drawn in, in pixels: of verdicts, menus, toolbars; and twice as fine."""
 
 
 def icon(name: str) -> QIcon:
@@ -61,8 +61,40 @@ def valence_icon(valence: int | None, text: str | None = None) -> QIcon:
     return _painted(paint)
 
 
+SIGNS = {
+    GOOD: ((0.29, 0.52), (0.44, 0.67), (0.72, 0.36)),
+    BAD: ((0.34, 0.34), (0.66, 0.66), (0.5, 0.5), (0.66, 0.34), (0.34, 0.66)),
+    UNSURE: ((0.5, 0.26), (0.5, 0.56)),
+    WAITING: ((0.32, 0.5), (0.68, 0.5)),
+}
+"""A tick, a cross, the stroke of an exclamation mark, a dash: lines in shares of a sign's size."""
+
+
+def verdict_icon(color: str) -> QIcon:
+    """Return the sign of a verdict, told by its shape as by its colour: a key of `SIGNS`."""
+
+    def paint(painter: QPainter, area: QRectF) -> None:
+        _paint_disk(painter, area, QColor(color), 0.06)
+        painter.setPen(
+            QPen(
+                QColor("white"),
+                area.width() / 8,
+                Qt.PenStyle.SolidLine,
+                Qt.PenCapStyle.RoundCap,
+                Qt.PenJoinStyle.RoundJoin,
+            )
+        )
+        painter.drawPolyline(
+            [QPointF(x * area.width(), y * area.height()) for x, y in SIGNS[color]]
+        )
+        if color == UNSURE:
+            painter.drawPoint(QPointF(0.5 * area.width(), 0.75 * area.height()))
+
+    return _painted(paint)
+
+
 def dot_icon(color: str) -> QIcon:
-    """Return a small plain disk: a verdict or a valence in a table."""
+    """Return a small plain disk: a valence in a table."""
     return _painted(lambda painter, area: _paint_disk(painter, area, QColor(color), 0.22))
 
 

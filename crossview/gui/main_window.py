@@ -38,6 +38,7 @@ from crossview.gui.panels import (
     ValidityPanel,
 )
 from crossview.gui.qt_loop import QtLoop
+from crossview.gui.solve_button import SolveButton
 from crossview.gui.status import Status
 from crossview.gui.toolbar import fill_toolbar
 from crossview.gui.valence_box import ValenceBox
@@ -91,7 +92,12 @@ class MainWindow(QMainWindow):
         shown = [dock.toggleViewAction() for dock in self.docks.values()]
         self.menus = Menus(self.menuBar(), named, shown, self.files.open)
         self.method_box: MethodBox = MethodBox(self.session)
-        boxes = {"method": self.method_box, "any-valence": ValenceBox(self.session)}
+        self.solve_button = SolveButton(named["solve"], named["stop"])
+        boxes = {
+            "method": self.method_box,
+            "any-valence": ValenceBox(self.session),
+            "solve-or-stop": self.solve_button,
+        }
         fill_toolbar(self.addToolBar("Tools"), named, boxes)
         self.status = Status(self.statusBar(), self.session, named["stop"])
         self.figure_preview = FigurePreview(self.export_panel, self.figure)
@@ -240,6 +246,7 @@ class MainWindow(QMainWindow):
             self.convergence_panel,
             self.quads_panel,
             self.method_box,
+            self.solve_button,
             self.status,
         ):
             panel.show_state(old, new)

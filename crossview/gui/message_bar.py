@@ -45,6 +45,13 @@ class MessageBar(QFrame):
         self.text.setWordWrap(True)
         self.text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.text.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
+        font = self.text.font()
+        font.setBold(True)
+        self.text.setFont(font)
+        self.below = QLabel()
+        self.below.setWordWrap(True)
+        self.below.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.below.setForegroundRole(self.palette().ColorRole.PlaceholderText)
         self.details_button = QPushButton("Details")
         self.details_button.setCheckable(True)
         self.details_button.toggled.connect(self._show_details)
@@ -76,6 +83,10 @@ class MessageBar(QFrame):
         self._layout = QVBoxLayout(self)
         self._layout.setContentsMargins(12, 8, 8, 8)
         self._layout.addLayout(line)
+        second = QHBoxLayout()
+        second.setContentsMargins(28, 0, 8, 0)  # below the text, beside the icon
+        second.addWidget(self.below)
+        self._layout.addLayout(second)
         self._layout.addLayout(self._buttons)
         self._layout.addWidget(self.details)
         self.hide()
@@ -94,7 +105,8 @@ class MessageBar(QFrame):
 
     def copy(self) -> None:
         """Copy text and details."""
-        text = "\n\n".join(part for part in (self.text.text(), self.details.toPlainText()) if part)
+        parts = (self.text.text(), self.below.text(), self.details.toPlainText())
+        text = "\n\n".join(part for part in parts if part)
         QGuiApplication.clipboard().setText(text)
 
     def _show(self, message: Message | None) -> None:
@@ -108,6 +120,8 @@ class MessageBar(QFrame):
         )
         self._icon.setPixmap(colored_icon(message.severity, tint).pixmap(QSize(20, 20)))
         self.text.setText(message.text[:1].upper() + message.text[1:])
+        self.below.setText(message.below)
+        self.below.setVisible(bool(message.below))
         self.details.setPlainText(message.details)
         self.details_button.setVisible(bool(message.details))
         self.copy_button.setVisible(bool(message.details))

@@ -50,10 +50,12 @@ class Message:
     Parameters
     ----------
     text : str
-        What, where and what to do.
+        What is told.
     cause : str
         What the message is about; it goes when that succeeds ("open", "solve", "edit", ...).
     severity : {"error", "warning", "info"}
+    below : str
+        Where, and what to do; may be empty.
     details : str
         More to read and copy; may be empty.
     remedies : tuple of Remedy
@@ -71,6 +73,7 @@ class Message:
     text: str
     cause: str
     severity: str = "error"
+    below: str = ""
     details: str = ""
     remedies: tuple[Remedy, ...] = ()
     tried: Opening | MeshOptions | None = None

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import os
 import traceback
 from collections import deque
 from collections.abc import Callable
 from dataclasses import fields
+from pathlib import Path
 
 from crossview.session.message import Message, ShowWhere
 from crossview.session.opening import Opening
 from crossview.session.state import SessionState
 from crossview.view.values import Elements
 from crossview.workflow.quads import MeshOptions
-from solvers.errors import CrossviewError, SurfaceError
+from solvers.errors import CrossviewError, SurfaceError, printable, shortened
 from solvers.remedies import Remedy, RepairSurface, TakeLargest, UseMethod
 
 MOST_LISTED = 200
@@ -71,12 +73,12 @@ class Store:
         """
         remedies: tuple[Remedy, ...] = ()
         if isinstance(error, CrossviewError):
-            text, details = str(error), describe(error)
+            text, below, details = shortened(error.what), _below(error, tried), describe(error)
             remedies = offered(error, tried, self._state.method)
         else:
-            text = f"Something went wrong: {error or type(error).__name__}"
+            text, below = f"Something went wrong: {error or type(error).__name__}", ""
             details = "".join(traceback.format_exception(error))
-        message = Message(text, cause, "error", details, remedies, tried, pointed=pointed)
+        message = Message(text, cause, "error", below, details, remedies, tried, pointed=pointed)
         self.update(self.state.said(message))
 
     def attempt(self, cause: str, verb: Callable[[], object]) -> None:
@@ -130,6 +132,15 @@ def offered(
     if as_read and isinstance(error, SurfaceError) and error.elements.size:
         found.append(ShowWhere("show where", Elements(**{error.kind: error.elements})))
     return tuple(found)
+
+
+def _below(error: CrossviewError, tried: Opening | MeshOptions | None) -> str:
+    """Return where it is and what to do; a file that was opened is told by its name."""
+    where = error.where
+    if isinstance(tried, Opening):
+        where = where.replace(f"{Path(tried.target).parent}{os.sep}", "")
+    told = ": ".join(part for part in (where, error.to_do()) if part)
+    return printable(" ".join(shortened(told).split()))
 
 
 def describe(error: CrossviewError) -> str:

@@ -48,20 +48,20 @@ CUT_HALO = "#ffffff"
 FEATURE = "#7a3db8"
 """Of features."""
 
-LOOP = "#0b8f6f"
+LOOP = "#b0207a"
 """Of handle loops."""
 
 CONDITIONS = (
-    "#0b8f6f",
     "#b0207a",
-    "#7a5c00",
     "#0f6a9a",
+    "#7a5c00",
     "#2c3e80",
-    "#4c7a1d",
-    "#a8431e",
+    "#e07bb8",
     "#37474f",
+    "#5fb3c8",
+    "#8d6e63",
 )
-"""One for each holonomy condition in turn, none a valence's."""
+"""One for each holonomy condition in turn, none a valence's and none green as what is good."""
 
 PROBLEM = "#e5182b"
 """Of what is wrong with a surface."""

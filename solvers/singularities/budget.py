@@ -313,14 +313,16 @@ def _remedies(missing: int, singularities: Sequence[Singularity]) -> tuple[Remed
     found: list[Remedy] = [AddMissing.of(3 if missing > 0 else 5, abs(missing))]
     if missing < -1:
         found.append(AddMissing.of(4 - missing, 1))
-    for number, singularity in reversed(list(enumerate(singularities))):
-        valence = singularity.valence - missing
-        if valence < 1 or singularity.locked:
-            continue
-        name = f"#{number + 1}"
+    changed = [
+        (abs(s.valence - missing - 4), -number, s.valence - missing)
+        for number, s in enumerate(singularities)
+        if s.valence - missing >= 1 and not s.locked
+    ]
+    if changed:  # to the most usual valence, of the newest
+        _, number, valence = min(changed)
+        name = f"#{1 - number}"
         if valence == 4:  # regular: it is to go
-            found.append(RemoveOne(f"remove {name}", number))
+            found.append(RemoveOne(f"remove {name}", -number))
         else:
-            found.append(ChangeOne(f"make {name} a valence {valence}", number, valence))
-        break
+            found.append(ChangeOne(f"make {name} a valence {valence}", -number, valence))
     return tuple(found)

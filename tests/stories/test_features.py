@@ -194,7 +194,7 @@ def test_a_stopped_natural_field_leaves_nothing_where_there_was_none(hand: Hand)
     hand.wait()
     assert hand.state.field is None
     assert hand.state.singularities == ()
-    assert "nothing was changed" in hand.state.message.text
+    assert "nothing was changed" in hand.said
 
 
 def test_as_few_natural_singularities_as_may_be(hand: Hand) -> None:

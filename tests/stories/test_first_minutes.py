@@ -200,6 +200,6 @@ def test_a_figure_shows_the_view_and_layers_of_the_window(hand: Hand, tmp_path: 
 def test_a_figure_that_cannot_be_written_is_told(hand: Hand, tmp_path: Path) -> None:
     hand.open("disk-4")
     hand.window.files.export(tmp_path / "figure.jpeg")
-    assert "figure.jpeg" in hand.state.message.text
+    assert "figure.jpeg" in hand.said
     hand.window.files.export(tmp_path / "figure.png")
     assert hand.state.message is None

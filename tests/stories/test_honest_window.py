@@ -1,12 +1,23 @@
 """What the window shows and says is true at every moment, and every key does what it says."""
 
+from pathlib import Path
+
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QDoubleSpinBox, QLabel, QSpinBox, QTabBar, QToolTip
+from PySide6.QtWidgets import (
+    QApplication,
+    QDoubleSpinBox,
+    QFrame,
+    QLabel,
+    QSpinBox,
+    QTabBar,
+    QToolTip,
+)
 
 from crossview.session.commands import ChangeValence, Together
 from crossview.session.pictures import scene_view
+from crossview.view.colors import BAD, CONDITIONS, GOOD, rgb
 from crossview.view.scalars import SURFACE_SCALARS
 from tests.windowing import Hand
 
@@ -268,3 +279,42 @@ def test_an_angle_without_edges_says_so(hand: Hand) -> None:
     box.sharp.click()
     hand.wait()
     assert box.found.text() == "No edge bends by more than 40\u00b0"
+
+
+def test_the_button_that_solves_stops_what_takes_long(hand: Hand) -> None:
+    hand.open("sphere-cube")
+    button = hand.window.solve_button
+    actions = hand.window.actions_table.by_name
+    assert button.defaultAction() is actions["solve"]
+    hand.window.session.moves.place_natural("ginzburg-landau")
+    while button.defaultAction() is not actions["stop"]:
+        QApplication.processEvents()
+        assert hand.state.progress is not None
+    QTest.mouseClick(button, LEFT)
+    hand.wait()
+    assert "Stopped" in hand.said
+    assert button.defaultAction() is actions["solve"]
+
+
+def test_no_loop_has_the_colour_of_what_is_good(hand: Hand) -> None:
+    for color in CONDITIONS:
+        red, green, blue = rgb(color)
+        assert green <= max(red, blue)
+    hand.open("annulus-near")
+    hand.trigger("method-isotropic")
+    row = hand.window.validity_panel.rows[0]
+    assert row.color == BAD
+    assert GOOD not in {child.styleSheet() for child in row.findChildren(QFrame)}
+
+
+def test_a_message_says_what_first_then_where_and_has_a_button(hand: Hand, tmp_path: Path) -> None:
+    path = tmp_path / "fin.obj"
+    path.write_text(
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nf 1 2 3\nf 2 4 3\nf 1 2 5\nf 2 1 4\n"
+    )
+    hand.open(path)
+    bar = hand.window.centre.message_bar
+    assert bar.text.text() == "1 non-manifold edge with more than two triangles"
+    assert bar.below.text().startswith("fin.obj, edges 0-1: repair")
+    assert str(tmp_path) not in bar.below.text()
+    assert [button.text() for button in bar.action_buttons] == ["Repair", "Show where"]

@@ -63,7 +63,7 @@ def test_stop_keeps_what_was_there_and_solve_goes_on(hand: Hand, large_case: str
     session.trials.drop()
     hand.wait(lambda: hand.state.message is not None)
     session.observers.remove(stop_at_factor)
-    assert hand.state.message.text == "Stopped; what was there is kept"
+    assert hand.said == "Stopped; what was there is kept"
     assert hand.state.undo_name == "move singularity 3"
     assert not hand.state.solved
     assert hand.state.field.surface is before.surface

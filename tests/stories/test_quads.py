@@ -266,7 +266,7 @@ def test_the_layout_layer_says_why_each_time_it_is_shown(hand: Hand, isotropic_p
     hand.open(isotropic_plate)
     hand.window.session.looks.toggle_layer("layout")
     hand.wait(lambda: hand.state.message is not None)
-    said = hand.state.message.text
+    said = hand.said
     # hidden, it has nothing to say; shown again, it has
     hand.window.session.looks.toggle_layer("layout")
     hand.wait()
@@ -274,7 +274,7 @@ def test_the_layout_layer_says_why_each_time_it_is_shown(hand: Hand, isotropic_p
     hand.window.session.looks.toggle_layer("layout")
     hand.wait()
     assert hand.state.message is not None
-    assert hand.state.message.text == said
+    assert hand.said == said
     # nor does a method in between that has a layout silence it
     hand.trigger("method-anisotropic")
     hand.wait(lambda: hand.state.made.layout is not None)
@@ -282,7 +282,7 @@ def test_the_layout_layer_says_why_each_time_it_is_shown(hand: Hand, isotropic_p
     hand.trigger("method-isotropic")
     hand.wait(lambda: hand.state.solved)
     assert hand.state.message is not None
-    assert hand.state.message.text == said
+    assert hand.said == said
     # what was asked for by hand stays as it was when the layer is hidden
     hand.trigger("mesh")
     hand.wait()
@@ -340,7 +340,7 @@ def test_stop_while_quads_are_made(hand: Hand) -> None:
     hand.trigger("mesh")
     hand.wait(lambda: hand.state.message is not None)
     assert "choosing numbers of quads" in stages
-    assert hand.state.message.text.startswith("Stopped")
+    assert hand.said.startswith("Stopped")
     assert hand.state.made.quads is None
     QApplication.processEvents()
     assert hand.state.solved

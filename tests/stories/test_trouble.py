@@ -48,7 +48,7 @@ def test_several_pieces_the_largest_is_one_click_away(hand: Hand, tmp_path: Path
 def test_a_file_that_did_not_open_is_not_the_one_opened_again(hand: Hand, tmp_path: Path) -> None:
     hand.open("disk-4")
     hand.open(str(tmp_path / "missing.obj"))
-    assert hand.state.message.text.startswith("no such file")
+    assert hand.said.startswith("no such file")
     hand.trigger("use-largest")
     assert hand.state.message is None
     assert hand.state.document.name == "disk-4"
@@ -69,7 +69,7 @@ def test_what_could_not_be_written_is_forgotten_with_its_surface(
 ) -> None:
     hand.open("disk-4")
     hand.window.files.export(tmp_path / "figure.docx")
-    assert ".docx" in hand.state.message.text
+    assert ".docx" in hand.said
     hand.open("square")
     assert hand.state.message is None
 
@@ -219,7 +219,7 @@ def test_dropped_on_the_boundary_is_told_and_undone(hand: Hand) -> None:
     trials.drag_to(rim)
     trials.drop()
     hand.wait(lambda: hand.state.message is not None)
-    assert "singularity 1 lies on the boundary" in hand.state.message.text
+    assert "singularity 1 lies on the boundary" in hand.said
     assert hand.state.field is None
     hand.trigger("undo")
     hand.wait(lambda: hand.state.solved)

@@ -6,7 +6,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QToolButton, QVBoxLayout, QWidget
 
-from crossview.gui.icons import dot_icon
+from crossview.gui.icons import verdict_icon
 from crossview.gui.panels.energy_plot import EnergyPlot
 from crossview.gui.panels.validity import DOT
 from crossview.session.state import SessionState
@@ -98,4 +98,4 @@ class ConvergencePanel(QWidget):
     def _show_dot(self, color: str) -> None:
         if color != self.color:
             self.color = color
-            self._dot.setPixmap(dot_icon(color).pixmap(DOT))
+            self._dot.setPixmap(verdict_icon(color).pixmap(DOT))

@@ -20,7 +20,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from crossview.gui.icons import dot_icon
+from crossview.gui.icons import verdict_icon
 from crossview.gui.panels.histogram import Histogram
 from crossview.gui.panels.quad_facts import ROWS, quad_facts
 from crossview.gui.panels.scrolling import scrolled
@@ -140,7 +140,7 @@ class QuadsPanel(QScrollArea):
             return
         self._filled = state.solution.problem.surface
         facts = quad_facts(made.layout, quads, state.solution, certificate)
-        self._dot.setPixmap(dot_icon(GOOD if facts.good else BAD).pixmap(DOT))
+        self._dot.setPixmap(verdict_icon(GOOD if facts.good else BAD).pixmap(DOT))
         self.said.setText(facts.verdict)
         for title, text in facts.rows.items():
             self.facts[title].setText(text)

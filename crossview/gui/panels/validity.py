@@ -16,34 +16,34 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from crossview.gui.icons import dot_icon
+from crossview.gui.icons import verdict_icon
 from crossview.session.mending import mendings
 from crossview.session.session import Session
 from crossview.session.state import SessionState
-from crossview.view.colors import BAD, GOOD, WAITING, condition_color
+from crossview.view.colors import BAD, GOOD, UNSURE, WAITING, condition_color
 from crossview.view.texts import degrees, signed
 from solvers.remedies import Remedy
 
 DOT = QSize(14, 14)
-"""Size of the dot that tells the verdict, in pixels. Chosen."""
+"""Size of the sign that tells the verdict, in pixels. Chosen."""
 
-BAR = 4
-"""Width of the bar in the colour of a condition, in pixels. Chosen."""
+SAMPLE = QSize(18, 3)
+"""Of the line in the colour of a condition's loop, in pixels. Chosen."""
 
 
 class VerdictRow(QFrame):
-    """A dot, what it is about, and a value at the right.
+    """A sign, what it is about, and a value at the right.
 
     Parameters
     ----------
-    mark : str
-        Colour of a bar at the left: that of what belongs to the row in the scene; empty: none.
+    line : str
+        Colour of what belongs to the row in the scene, shown by a piece of line; empty: none.
     """
 
     hovered = Signal(bool)
     clicked = Signal()
 
-    def __init__(self, mark: str = "", parent: QWidget | None = None) -> None:
+    def __init__(self, line: str = "", parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._dot, self.text, self.value = QLabel(), QLabel(), QLabel()
         self.value.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
@@ -52,22 +52,21 @@ class VerdictRow(QFrame):
         layout = QHBoxLayout(self)
         layout.setContentsMargins(8, 3, 8, 3)
         layout.setSpacing(8)
-        if mark:
-            layout.setContentsMargins(0, 3, 8, 3)
-            layout.setSpacing(6)
-            bar = QFrame()
-            bar.setFixedWidth(BAR)
-            bar.setStyleSheet(f"background: {mark}")
-            layout.addWidget(bar)
         layout.addWidget(self._dot)
         layout.addWidget(self.text, 1)
+        if line:
+            sample = QFrame()
+            sample.setFixedSize(SAMPLE)
+            sample.setStyleSheet(f"background: {line}")
+            sample.setToolTip("Colour of its loop and guide lines in the scene")
+            layout.addWidget(sample)
         layout.addWidget(self.value)
 
     def show_verdict(self, color: str, text: str, value: str) -> None:
-        """Show a coloured dot, a text and a value."""
+        """Show a sign, a key of `SIGNS`, a text and a value."""
         if color != self.color:
             self.color = color
-            self._dot.setPixmap(dot_icon(color).pixmap(DOT))
+            self._dot.setPixmap(verdict_icon(color).pixmap(DOT))
         self.text.setText(text)
         self.text.setToolTip(text)
         self.value.setText(value)
@@ -230,7 +229,7 @@ class ValidityPanel(QWidget):
             defect = float(np.degrees(defects[i]))
             good = abs(defect) < state.tolerance
             bridged = not good and state.method != "isotropic"
-            row.show_verdict(GOOD if good else WAITING if bridged else BAD, label, degrees(defect))
+            row.show_verdict(GOOD if good else UNSURE if bridged else BAD, label, degrees(defect))
             if bridged:
                 row.text.setToolTip(f"{label}: not closed by itself, the method bridges it")
 

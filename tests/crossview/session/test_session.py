@@ -72,7 +72,7 @@ def test_what_cannot_be_opened_is_refused_and_what_was_open_stays(
     before = held.state
     held.open(str(tmp_path / "missing.obj"))
     assert held.state.message.cause == "open"
-    assert "missing.obj" in held.state.message.text
+    assert "missing.obj" in held.state.message.below
     assert held.state.document is before.document
     assert held.state.shown is before.shown
     held.session.dismiss()
