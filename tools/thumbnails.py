@@ -1,28 +1,33 @@
-"""Draw the gallery cases that the empty window offers: resources/thumbnails/*.png."""
+"""Draw the pictures of the gallery that the window shows: resources/thumbnails/*.png.
 
+usage: python tools/thumbnails.py [CASE ...]
+"""
+
+import sys
+from dataclasses import replace
 from pathlib import Path
+from tempfile import mkdtemp
 
 from PIL import Image
 
-from crossview.cases.gallery import path_of
-from crossview.cases.model import Case
+from crossview.cases.gallery import RESOURCES, exhibits
 from crossview.export.raster import picture
-from crossview.gui.empty_state import FEATURED
 from crossview.scene import field_view, layers_named
-from crossview.workflow.pipeline import Pipeline
-from crossview.workflow.problem import Problem
-from solvers.progress import run
+from crossview.studies.exhibition import performed
+from crossview.studies.performing import State
+from crossview.view.meshes import curves_of
 
-FOLDER = Path(__file__).parents[1] / "resources" / "thumbnails"
 SIZE = (416, 312)
+LAYERS = ("surface", "H", "crosses", "singularities", "boundary", "separatrices")
 
 
-def thumbnail(name: str) -> Image.Image:
-    """Draw a gallery case in few strokes, cropped to the surface, on nothing."""
-    problem = Problem.from_case(Case.load(path_of(name)))
-    solution = run(Pipeline().solve(problem))
-    layers = layers_named(("surface", "H", "crosses", "singularities", "boundary"))
-    view = field_view(solution.field, layers=layers, background="transparent")
+def thumbnail(state: State) -> Image.Image:
+    """Draw what was made of a case in few strokes, cropped to the surface, on nothing."""
+    if state.solution is None:
+        raise ValueError("nothing is solved")
+    view = field_view(state.solution.field, layers=layers_named(LAYERS), background="transparent")
+    if state.layout is not None:
+        view = replace(view, separatrices=curves_of(state.layout.separatrices))
     view = view.with_layer("crosses", density=0.35, size=1.5).with_layer("singularities", size=1.6)
     drawn = picture(view, (1600, 900), 1.0, "auto", texts=False)
     drawn = drawn.crop(drawn.getchannel("A").getbbox())
@@ -32,5 +37,7 @@ def thumbnail(name: str) -> Image.Image:
     return framed.quantize(200, method=Image.Quantize.FASTOCTREE)
 
 
-for case, _ in FEATURED:
-    thumbnail(case).save(FOLDER / f"{case}.png", optimize=True)
+for exhibit in exhibits():
+    if len(sys.argv) == 1 or exhibit.case in sys.argv[1:]:
+        made = performed(exhibit, Path(mkdtemp()))
+        thumbnail(made).save(RESOURCES / "thumbnails" / f"{exhibit.case}.png", optimize=True)

@@ -2,20 +2,72 @@
 
 from __future__ import annotations
 
+import json
 import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cache
 from importlib.resources import files
 from pathlib import Path
+from typing import Any
 
 from crossview.cases.json_values import nearest
 from crossview.cases.model import Case, CaseError
 from crossview.cases.pictured import FIGURES, Pictured
 from solvers.primitives import BUILTIN
 
+RESOURCES = Path(str(files("crossview.resources")))
+"""Where the gallery is: the table ``gallery.json``, cases and their pictures."""
+
+
+@dataclass(frozen=True)
+class Exhibit:
+    """What the table of the gallery tells of a case.
+
+    Parameters
+    ----------
+    case : str
+        Its name.
+    group : str
+        Title of the group that it is shown in.
+    sentence : str
+        What it shows.
+    expect : mapping of str to object
+        Figures of its report and what they must be: a value, ``{"least": 0, "most": 1}``, or
+        compared with another case ``{"below": name}`` and ``{"near": name, "within": 0.1}``.
+    steps : sequence, optional
+        From the case to what is shown, as those of a study.
+    pictures : mapping of str to dict, optional
+        By the names of their files, with options as of the step ``render`` of a study.
+    """
+
+    case: str
+    group: str
+    sentence: str
+    expect: Mapping[str, Any]
+    steps: Sequence[Any] = ("solve", {"quads": {"target_quads": 1500}})
+    pictures: Mapping[str, dict[str, Any]] = field(
+        default_factory=lambda: {"figure": {}, "quads": {}}
+    )
+
+
+@cache
+def exhibits() -> tuple[Exhibit, ...]:
+    """The gallery, in its order."""
+    table = json.loads((RESOURCES / "gallery.json").read_text(encoding="utf-8"))
+    found = []
+    for group in table["groups"]:
+        for told in group["cases"]:
+            exhibit = Exhibit(group=group["title"], **told)
+            meshed = table["with quads"] if "quads" in exhibit.pictures else {}
+            expect = {**table["always"], **meshed, **exhibit.expect}
+            found.append(Exhibit(group=group["title"], **{**told, "expect": expect}))
+    return tuple(found)
+
 
 def names() -> tuple[str, ...]:
-    """Names of the gallery cases, in alphabetical order."""
-    folder = Path(str(files("crossview.resources") / "gallery"))
-    return tuple(sorted(path.stem for path in folder.glob("*.json")))
+    """Names of the gallery cases, in its order."""
+    return tuple(exhibit.case for exhibit in exhibits())
 
 
 def path_of(name: str) -> Path:
@@ -28,7 +80,7 @@ def path_of(name: str) -> Path:
     """
     if name not in names():
         raise CaseError(f'no gallery case "{name}"', "", nearest(name, names()))
-    return Path(str(files("crossview.resources") / "gallery" / f"{name}.json"))
+    return RESOURCES / "gallery" / f"{name}.json"
 
 
 def find_case(target: str) -> Case:

@@ -39,7 +39,7 @@ for module, name in (
     ("solve", "solve"),
     ("check", "check"),
     ("render", "render"),
-    ("render", "gallery"),
+    ("gallery", "gallery"),
     ("natural", "natural"),
     ("complete", "complete"),
     ("make_valid", "make_valid"),
@@ -62,7 +62,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        Exit status: 0 (or the window's, or what `info` says), 1 for quads that are not right, 2
+        Exit status: 0 (or the window's, or what `info` says), 1 for quads that are not
+        right or a gallery that is not as expected, 2
         for a mistake the user can mend, 130 when interrupted.
     """
     tokens = list(sys.argv[1:] if arguments is None else arguments)

@@ -1,38 +1,22 @@
-"""crossview render and crossview gallery: cases to pictures."""
+"""crossview render: cases to pictures."""
 
 from __future__ import annotations
 
-import contextlib
 import re
 from collections.abc import Generator
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated
 
-from cyclopts import Parameter
-
-from crossview.cases import gallery as cases
 from crossview.cases.model import Case
 from crossview.cases.pictured import Pictured
 from crossview.cli.options import CaseOptions, Flag, Output, QuadOptions, Quiet
 from crossview.cli.terminal import say, watch
-from crossview.io.staged_files import staged, staged_file
+from crossview.io.staged_files import staged_file
 from crossview.workflow.layout import layout, layout_soon
 from crossview.workflow.pipeline import Solution, solve_case
-from crossview.workflow.quads import MeshOptions, quads_of
+from crossview.workflow.quads import quads_of
 from solvers.errors import CrossviewError
-from solvers.layouts import LayoutError, QuadLayout
 from solvers.progress import Progress
-from solvers.quads import QuadMesh
-
-FIGURE, QUADS = "figure.png", "quads.png"
-"""Names of the files drawn for each case of the gallery."""
-
-QUAD_LAYERS = ("quads", "singularities", "boundary", "legend", "axes")
-"""Layers of the picture of quads."""
-
-COARSE = MeshOptions(target_quads=1500)
-"""Of the gallery: quads that can be told apart in a picture."""
 
 
 def render(
@@ -126,59 +110,6 @@ def _component_of(whole: Case, found: Case) -> Generator[Progress, None, Solutio
     if number >= len(solutions):
         raise CrossviewError(f"there is no component {number}", f"of {len(solutions)}")
     return solutions[number]
-
-
-def gallery(
-    *names: str,
-    output: Annotated[str | None, Parameter(name=["--output", "-o"])] = None,
-    list_: Annotated[bool, Parameter(name="--list", negative="")] = False,
-    quiet: Quiet = False,
-) -> None:
-    """Solve and draw gallery cases, each into a folder of its own with a report.
-
-    Those whose field is aligned and integrable get quads, too.
-
-    Parameters
-    ----------
-    names
-        Which cases; all of them if none is named.
-    output
-        Folder for the results.
-    list_
-        Only list the cases.
-    """
-    paths = {name: cases.path_of(name) for name in names or cases.names()}
-    if list_:
-        for name in paths:
-            say(f"{name:16} {Case.load(paths[name]).title}".rstrip())
-        return
-    if output is None:
-        raise CrossviewError("no folder for the results", "", "name one with -o, or --list")
-    from crossview.export.figures import render as draw
-    from crossview.export.quads_report import quads_summary
-    from crossview.export.report import summary, write_files
-
-    def work(
-        name: str, directory: Path
-    ) -> Generator[Progress, None, tuple[Solution, QuadLayout | None, QuadMesh | None]]:
-        (solution,) = yield from solve_case(Case.load(paths[name]))
-        made, quads = None, None
-        with contextlib.suppress(LayoutError):  # the summary tells that the field is not valid
-            solution, made, quads = yield from quads_of(solution, COARSE)
-        yield Progress(f"drawing {name}", 0.9)
-        write_files(solution, directory, made, quads)
-        draw(solution, directory / FIGURE, layout=made)
-        if quads is not None:
-            draw(solution, directory / QUADS, layers=QUAD_LAYERS, quads=quads)
-        return solution, made, quads
-
-    for name in paths:
-        with staged(Path(output) / name) as staging:
-            solution, made, quads = watch(work(name, staging), quiet)
-        if not quiet:
-            say(f"{name}: {summary(solution)}")
-            if made is not None and quads is not None:
-                say(f"{name}: {quads_summary(solution, made, quads)}")
 
 
 def _size(text: str) -> tuple[int, int]:

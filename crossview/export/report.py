@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from crossview.export.field_facts import cut_facts, log_sizes
 from crossview.export.meshes import check_kind, write_mesh
 from crossview.export.quads_report import quads_report
 from crossview.export.vtk_bytes import save_vtk
@@ -50,8 +51,9 @@ def report(
     (quality of triangles: 1 equilateral, 0 degenerate); "boundary_misalignment_degrees" follows
     the order of ``surface.boundary_loops`` of the first. "holonomy" and "isotropically_valid" are
     those of the isotropic field of the configuration, whatever the method; the "turns" are the
-    method's. "layout" tells of the separatrices, and of patches if a layout is given; "quads" is
-    there if a quad mesh is, "delivered" in it whether files of it are written.
+    method's. "log_sizes" are H1 and H2 together; "cut_graph" tells what the surface is opened to.
+    "layout" tells of the separatrices, and of patches if a layout is given; "quads" is there if a
+    quad mesh is, "delivered" in it whether files of it are written.
     """
     problem, field = solution.problem, solution.field
     surface, solved_on = problem.surface, solution.surface
@@ -104,6 +106,8 @@ def report(
         ],
         "forced_corners": _forced_corners(solution),
         **_integrability(solution),
+        "log_sizes": log_sizes(field),
+        "cut_graph": cut_facts(solution),
         "layout": _layout(solution, layout),
         **({} if quads is None else {"quads": quads_report(solution, quads, delivered)}),
         "residual": float(field.residual),

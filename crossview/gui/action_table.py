@@ -199,6 +199,10 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "Open a surface or a case",
     ),
     ActionSpec(
+        "gallery", "Gallery…", "File", lambda w: w.show_gallery(), icon="gallery",
+        tip="Cases that come with crossview, each with a picture and a sentence",
+    ),
+    ActionSpec(
         "save", "Save", "File", lambda w: w.files.save(), ("Ctrl+S",), "save",
         "Write surface, singularities and options to the case file that is open", _open,
     ),

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from importlib.resources import files
-
 from PySide6.QtCore import QSize, Qt, Signal
-from PySide6.QtGui import QIcon, QPixmap, QResizeEvent
+from PySide6.QtGui import QIcon, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QToolButton, QVBoxLayout, QWidget
 
+from crossview.gui.gallery import thumbnail
 from crossview.gui.icons import icon
 
 THUMBNAIL, SMALLEST = 208, 120
@@ -74,10 +73,7 @@ class EmptyState(QWidget):
         button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextUnderIcon)
         button.setAutoRaise(True)
         button.setMinimumWidth(SMALLEST)
-        picture = files("crossview.resources") / "thumbnails" / f"{name}.png"
-        pixmap = QPixmap()
-        pixmap.loadFromData(picture.read_bytes())
-        button.setIcon(QIcon(pixmap))
+        button.setIcon(QIcon(thumbnail(name)))
         button.setText(text)
         button.clicked.connect(lambda: self.chosen.emit(name))
         return button

@@ -23,6 +23,7 @@ from crossview.gui.docks import add_docks
 from crossview.gui.figure import Figure
 from crossview.gui.figure_preview import FigurePreview
 from crossview.gui.files import Files
+from crossview.gui.gallery import Gallery
 from crossview.gui.help_page import KeysPage, diagnostics
 from crossview.gui.menus import MENUS, Menus
 from crossview.gui.method_box import MethodBox
@@ -162,6 +163,13 @@ class MainWindow(QMainWindow):
     def copy_diagnostics(self) -> None:
         """Put what a report of trouble should tell into the clipboard."""
         QGuiApplication.clipboard().setText(diagnostics(self.state))
+
+    def show_gallery(self) -> None:
+        """Show the cases that come with crossview, to open one."""
+        gallery = Gallery(self)
+        gallery.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        gallery.chosen.connect(self.files.open)
+        gallery.open()
 
     def show_keys(self) -> None:
         """List all keys."""

@@ -10,7 +10,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QMenu, QMenuBar
 
-from crossview.cases.gallery import names, path_of
+from crossview.cases.gallery import exhibits, path_of
 from crossview.cases.model import METHODS, Case
 from crossview.gui.action_table import ACTIONS
 from crossview.gui.recent import forget_all, recent
@@ -62,9 +62,12 @@ class Menus:
         self._menus["File"].insertMenu(actions["save"], self._recent)
         self.show_recent()
         gallery = self._menus["Gallery"]
-        for name in names():
-            title = Case.load(path_of(name)).title
-            self._add(gallery, f"{name}: {title}", partial(open_target, name))
+        for exhibit in exhibits():
+            title = Case.load(path_of(exhibit.case)).title
+            group = self._submenu(gallery, exhibit.group)
+            action = self._add(group, title, partial(open_target, exhibit.case))
+            action.setToolTip(exhibit.sentence)
+            group.setToolTipsVisible(True)
         self._fill_view(panels)
 
     def menu(self, title: str) -> QMenu:

@@ -43,6 +43,9 @@ class WindowVerbs(Protocol):
     def copy_diagnostics(self) -> None:
         """Put what a report of trouble should tell into the clipboard."""
 
+    def show_gallery(self) -> None:
+        """Show the cases that come with crossview, to open one."""
+
     def show_keys(self) -> None:
         """List all keys."""
 

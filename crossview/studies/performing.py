@@ -17,7 +17,7 @@ from crossview.studies.figures import figures
 from crossview.studies.outcome import DONE, FAILED, OUT_OF_MEMORY, Outcome
 from crossview.studies.parcels import with_files
 from crossview.studies.plan import Task
-from crossview.studies.steps import Natural, Plain, Quads, Render
+from crossview.studies.steps import Natural, Plain, Quads, Render, Step
 from crossview.workflow import configurations
 from crossview.workflow.loading import load_surfaces
 from crossview.workflow.pipeline import Pipeline
@@ -35,8 +35,8 @@ FIGURE, CASE, REPORT = "figure.png", "case.json", "report.json"
 
 
 @dataclass
-class _State:
-    """What there is of a case so far."""
+class State:
+    """What there is of a case so far, and the folder of the pictures that are drawn of it."""
 
     folder: Path
     problem: Problem
@@ -83,10 +83,10 @@ def perform(
     try:
         begin("reading")
         case = with_files(task.case, places)
-        state = _State(folder, problems_on(case, _surfaces(case))[0])
+        state = State(folder, problems_on(case, _surfaces(case))[0])
         for step in task.steps:
             begin(step.name)
-            TAKE[step.name](state, step.options)
+            take(state, step)
         begin("writing")
         _keep(state, task, home)
     except CrossviewError as error:
@@ -123,7 +123,7 @@ def _loaded(text: str) -> tuple[Repaired, ...]:
     return load_surfaces(Case.from_json(json.loads(text)))
 
 
-def _natural(state: _State, options: Natural) -> None:
+def _natural(state: State, options: Natural) -> None:
     state.problem = run(
         configurations.natural(
             state.problem,
@@ -137,28 +137,28 @@ def _natural(state: _State, options: Natural) -> None:
     )
 
 
-def _complete(state: _State, options: Plain) -> None:
+def _complete(state: State, options: Plain) -> None:
     state.problem = run(configurations.complete(state.problem))
 
 
-def _make_valid(state: _State, options: Plain) -> None:
+def _make_valid(state: State, options: Plain) -> None:
     state.problem = run(configurations.make_valid(state.problem))[0]
 
 
-def _improve(state: _State, options: Plain) -> None:
+def _improve(state: State, options: Plain) -> None:
     state.problem = run(configurations.improve(state.problem))[0]
 
 
-def _solve(state: _State, options: Plain) -> None:
+def _solve(state: State, options: Plain) -> None:
     state.solution = run(Pipeline().solve(state.problem))
 
 
-def _quads(state: _State, options: Quads) -> None:
+def _quads(state: State, options: Quads) -> None:
     made = quads_of(_solved(state), options.mesh_options)
     state.solution, state.layout, state.quads = run(made)
 
 
-def _render(state: _State, options: Render) -> None:
+def _render(state: State, options: Render) -> None:
     from crossview.export.figures import render  # VTK is loaded when it is wanted
 
     render(
@@ -172,7 +172,7 @@ def _render(state: _State, options: Render) -> None:
     )
 
 
-TAKE: dict[str, Callable[[_State, Any], None]] = {
+TAKE: dict[str, Callable[[State, Any], None]] = {
     "natural": _natural,
     "complete": _complete,
     "make-valid": _make_valid,
@@ -184,13 +184,29 @@ TAKE: dict[str, Callable[[_State, Any], None]] = {
 """What does each step."""
 
 
-def _solved(state: _State) -> Solution:
+def take(state: State, step: Step) -> None:
+    """Take one step, which changes the state.
+
+    Parameters
+    ----------
+    state : State
+    step : Step
+
+    Raises
+    ------
+    CrossviewError
+        As the step's verb.
+    """
+    TAKE[step.name](state, step.options)
+
+
+def _solved(state: State) -> Solution:
     if state.solution is None:
         raise CrossviewError("nothing is solved yet", "", 'take the step "solve" before')
     return state.solution
 
 
-def _figures(state: _State, delivered: bool) -> dict[str, Any]:
+def _figures(state: State, delivered: bool) -> dict[str, Any]:
     """What is known of a case: all of the report once it is solved."""
     if state.solution is None:
         placed = state.problem.singularities
@@ -198,7 +214,7 @@ def _figures(state: _State, delivered: bool) -> dict[str, Any]:
     return figures(report(state.solution, state.layout, state.quads, delivered))
 
 
-def _keep(state: _State, task: Task, home: Path) -> None:
+def _keep(state: State, task: Task, home: Path) -> None:
     """Write the files that are kept, but for the picture, which is written when it is drawn."""
     kept, solution = task.files, state.solution
     if "case" in kept:

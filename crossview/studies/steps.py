@@ -13,6 +13,7 @@ from crossview.cases.scalars import Flag, Number, Text, Word
 from crossview.cases.shape import Shape
 from crossview.workflow.quads import MeshOptions
 from solvers.fields import CURVATURE_WEIGHT, MOST_VALENCE, NATURAL_ALIGNMENTS, NATURAL_METHODS
+from solvers.quads import MAX_CHORD
 
 
 @dataclass(frozen=True)
@@ -65,6 +66,14 @@ class Quads:
     allow_inverted: bool = field(
         default=False, metadata=key(Flag(), "Whether they are kept although one is inverted.")
     )
+    max_chord: float = field(
+        default=MAX_CHORD,
+        metadata=key(
+            Number(above=0, most=1),
+            "Largest distance of an edge from the boundary or feature that it follows, in radii "
+            "of its bend.",
+        ),
+    )
 
     @property
     def mesh_options(self) -> MeshOptions:
@@ -75,7 +84,7 @@ class Quads:
         CrossviewError
             Both a number and a length are given.
         """
-        return MeshOptions(self.edge_length, self.target_quads, self.smooth)
+        return MeshOptions(self.edge_length, self.target_quads, self.smooth, self.max_chord)
 
 
 @documented

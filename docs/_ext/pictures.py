@@ -27,14 +27,6 @@ def draw(folder: Path) -> None:
     for script in sorted((folder.parent.parent / "examples").glob("*.py")):
         with contextlib.chdir(folder / "examples"):
             runpy.run_path(str(script))
-    for layer in ("H", "theta", "cut"):
-        layers = f"surface,{layer},singularities,legend,axes"
-        target = folder / f"closed-H-{layer}.png"
-        run("render", "closed-H", "-o", str(target), "--layers", layers)
-    for name in ("suboptimal-a", "suboptimal-b", "suboptimal-c"):
-        layers = "H,separatrices,marks,singularities,boundary,legend"
-        target = folder / f"{name}.png"
-        run("render", name, "-o", str(target), "--layers", layers, "--size", "1600x720")
     run("gallery", "-o", str(folder / "gallery"))
 
 

@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
 from PySide6.QtGui import QDragEnterEvent, QDropEvent, QGuiApplication
-from PySide6.QtWidgets import QApplication
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QLabel, QMenu
 
-from crossview.cases.gallery import find_case, names
+from crossview.cases.gallery import exhibits, find_case, names
 from crossview.cli import main
+from crossview.gui.gallery import Gallery
 from crossview.gui.help_page import KeysPage
 from tests.crossview.gui.test_window import write_obj
 from tests.windowing import Hand
@@ -142,14 +144,26 @@ def test_help_lists_keys_and_the_gallery_says_what_its_cases_show(hand: Hand) ->
     assert "Ctrl+S" in text
     assert "Save as" in text
     page.close()
-    listed = [action.text() for action in hand.window.menus.menu("Gallery").actions()]
-    assert [text.partition(": ")[0] for text in listed] == list(names())
-    assert all(
-        text.partition(": ")[2] == find_case(name).title
-        for text, name in zip(listed, names(), strict=True)
-    )
+    groups = [action.menu() for action in hand.window.menus.menu("Gallery").actions()]
+    listed = [action for group in groups if isinstance(group, QMenu) for action in group.actions()]
+    assert [action.text() for action in listed] == [find_case(name).title for name in names()]
     hand.open("disk-4")
     hand.trigger("diagnostics")
     told = QGuiApplication.clipboard().text()
     assert told.startswith("crossview ")
     assert "disk-4" in told
+
+
+def test_the_gallery_shows_a_picture_and_a_sentence_of_each_case(hand: Hand) -> None:
+    hand.trigger("gallery")
+    (gallery,) = hand.window.findChildren(Gallery)
+    assert list(gallery.cards) == list(names())
+    told = {label.text() for label in gallery.findChildren(QLabel)}
+    for exhibit in exhibits():
+        assert not gallery.cards[exhibit.case].icon().isNull()
+        assert {exhibit.sentence, exhibit.group, find_case(exhibit.case).title} <= told
+    gallery.cards["l-shape-corners"].setFocus()
+    QTest.keyClick(gallery.cards["l-shape-corners"], Qt.Key.Key_Space)
+    hand.wait(lambda: hand.state.solved)
+    assert hand.window.findChildren(Gallery) == []
+    assert hand.state.document.name == "l-shape-corners"
