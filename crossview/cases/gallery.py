@@ -14,6 +14,7 @@ from typing import Any
 from crossview.cases.json_values import nearest
 from crossview.cases.model import Case, CaseError
 from crossview.cases.pictured import FIGURES, Pictured
+from crossview.cases.project import PROJECT, Project
 from solvers.primitives import BUILTIN
 
 RESOURCES = Path(str(files("crossview.resources")))
@@ -89,8 +90,8 @@ def find_case(target: str) -> Case:
     Parameters
     ----------
     target : str
-        A case file, a figure of one, a surface file (a case without singularities), or the name
-        of a gallery case or of a built-in surface.
+        A case file, a project, a figure of one, a surface file (a case without singularities), or
+        the name of a gallery case or of a built-in surface.
 
     Raises
     ------
@@ -100,6 +101,8 @@ def find_case(target: str) -> Case:
     path = Path(target)
     if path.suffix.lower() == ".json":
         return Case.load(path)
+    if path.suffix.lower() == PROJECT:
+        return Project.load(path).case
     if path.suffix.lower() in FIGURES and os.path.exists(path):
         return Pictured.load(path).case
     if os.path.exists(path):  # also of a name too long for one

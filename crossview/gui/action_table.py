@@ -204,11 +204,11 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ),
     ActionSpec(
         "save", "Save", "File", lambda w: w.files.save(), ("Ctrl+S",), "save",
-        "Write surface, singularities and options to the case file that is open", _open,
+        "Write the document to its project or case file", _open,
     ),
     ActionSpec(
         "save-as", "Save as…", "File", lambda w: w.files.ask_save(), ("Ctrl+Shift+S",),
-        tip="Write surface, singularities and options as another case file", enabled=_open,
+        tip="Write a project, with layers, camera and ranges, or a case alone", enabled=_open,
     ),
     ActionSpec(
         "figure", "Figure…", "File", lambda w: w.files.ask_figure(), ("Ctrl+E",), "figure",

@@ -40,7 +40,7 @@ class EmptyState(QWidget):
         font = title.font()
         font.setPointSizeF(font.pointSizeF() * 1.5)
         title.setFont(font)
-        formats = QLabel("OBJ, PLY, STL, OFF, VTK, VTP, GLTF, GLB, MSH, or a case as JSON")
+        formats = QLabel("OBJ, PLY, STL, OFF, VTK, VTP, GLTF, GLB, MSH, or a project or case")
         formats.setForegroundRole(self.palette().ColorRole.PlaceholderText)
         browse = QPushButton(icon("open"), "Open a file…")
         browse.clicked.connect(self.open_wanted)

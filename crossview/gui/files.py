@@ -8,18 +8,20 @@ from pathlib import Path
 
 from PySide6.QtWidgets import QFileDialog, QStatusBar, QWidget
 
+from crossview.cases.project import PROJECT, Project
 from crossview.export.meshes import write_mesh
 from crossview.gui.dialogs import Answer, ask_target, ask_to_save
 from crossview.gui.figure import Figure
 from crossview.gui.recent import remember
 from crossview.gui.recovery import Recovery, Unsaved
 from crossview.io import SUFFIXES
+from crossview.session.look import Look
 from crossview.session.opening import Opening
 from crossview.session.session import Session
 from crossview.session.state import SessionState
 
-CASES = {".json": "Case"}
-"""Words for the suffix of case files."""
+CASES = {PROJECT: "Project, with layers, camera and ranges", ".json": "Case"}
+"""Words for the suffixes that a document is saved with."""
 
 FIGURES = {".png": "PNG picture", ".svg": "SVG drawing", ".pdf": "PDF drawing"}
 """Words for suffixes of figures."""
@@ -47,6 +49,8 @@ class Files:
     session : Session
     figure : callable
         Returns what a figure would show now; None: nothing.
+    look : callable
+        Returns how the document is looked at.
     parent : QWidget
         What the dialogs stand over.
     status : QStatusBar
@@ -57,11 +61,13 @@ class Files:
         self,
         session: Session,
         figure: Callable[[], Figure | None],
+        look: Callable[[], Look],
         parent: QWidget,
         status: QStatusBar,
     ) -> None:
         self._session = session
         self._figure = figure
+        self._look = look
         self._parent = parent
         self._status = status
         self._source = ""
@@ -72,7 +78,7 @@ class Files:
 
     @property
     def path(self) -> Path | None:
-        """The case file that the document is of; None: it has none yet."""
+        """The project or case file that the document is of; None: it has none yet."""
         source = Path(self._source)
         return source if source.suffix.lower() in CASES and source.is_file() else None
 
@@ -128,37 +134,43 @@ class Files:
 
     def ask_open(self) -> None:
         """Ask for a surface or a case and open it."""
-        patterns = " ".join(f"*{suffix}" for suffix in sorted(SUFFIXES))
+        known = (*sorted(SUFFIXES), *CASES, *FIGURES)
+        patterns = " ".join(f"*{suffix}" for suffix in known)
         path, _ = QFileDialog.getOpenFileName(
             self._parent,
             "Open a surface or a case",
             self._folder(),
-            f"Surfaces, cases and figures ({patterns} *.json *.png *.svg *.pdf);;All files (*)",
+            f"Surfaces, projects, cases and figures ({patterns});;All files (*)",
         )
         if path:
             self.open(path)
 
     def save(self) -> None:
-        """Write the case to its file, or ask for one where there is none."""
+        """Write the document to its file, or ask for one where there is none."""
         if self.path is None:
             self.ask_save()
         else:
             self.save_to(self.path)
 
     def ask_save(self) -> None:
-        """Ask where to write the case, and write it."""
-        path = self._ask("Save the case", ".json", CASES)
+        """Ask where to write the document, and write it."""
+        suffix = PROJECT if self.path is None else self.path.suffix.lower()
+        path = self._ask("Save", suffix, CASES)
         if path is not None:
             self.save_to(path)
 
     def save_to(self, path: Path) -> None:
-        """Write the present document as a case file, which it is of from now on."""
+        """Write the present document as a project or case, which it is of from now on."""
         document = self._session.state.document
         if document is None:
             return
 
         def verb() -> None:
-            document.to_case().save(path)
+            case = document.to_case()
+            if path.suffix.lower() == PROJECT:
+                Project(case, self._look().to_json()).save(path)
+            else:
+                case.save(path)
             self._source = str(path)
             remember(self._source)
             self._session.edits.keep()

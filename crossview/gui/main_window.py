@@ -16,6 +16,7 @@ from PySide6.QtWidgets import QMainWindow, QMessageBox
 
 import crossview
 from crossview.cases.pictured import FIGURES, Pictured
+from crossview.cases.project import PROJECT
 from crossview.gui.action_table import ACTIONS
 from crossview.gui.actions import Actions
 from crossview.gui.centre import Centre
@@ -46,6 +47,7 @@ from crossview.gui.valence_box import ValenceBox
 from crossview.gui.viewport import Viewport
 from crossview.gui.window_geometry import WindowGeometry
 from crossview.scene.camera import read_camera
+from crossview.session.look import Look
 from crossview.session.opening import Opening
 from crossview.session.pictures import figure_view
 from crossview.session.script import script
@@ -63,7 +65,7 @@ class MainWindow(QMainWindow):
         self.resize(QSize(1440, 900).boundedTo(self.screen().availableSize()))
         self.setAcceptDrops(True)
         self.session: Session = Session(QtLoop(self))
-        self.files: Files = Files(self.session, self.figure, self, self.statusBar())
+        self.files: Files = Files(self.session, self.figure, self.look, self, self.statusBar())
         self.actions_table = Actions(ACTIONS, self, self)
         named = self.actions_table.by_name
         self.centre: Centre = Centre(self.session)
@@ -135,6 +137,10 @@ class MainWindow(QMainWindow):
         camera = self.viewport.scene.camera
         return Figure(view, camera, settings, self.state.document.to_case())
 
+    def look(self) -> Look:
+        """Return how the document is looked at now."""
+        return Look.of(self.state, self.viewport.scene.camera.text, self.viewport.held.ranges)
+
     def edit_valence(self, index: int) -> None:
         """Let the valence of singularity `index` be typed."""
         self.singularities_panel.edit(index)
@@ -154,7 +160,7 @@ class MainWindow(QMainWindow):
     def paste_camera(self) -> None:
         """Look with the camera that the clipboard holds."""
         text = QGuiApplication.clipboard().text()
-        self.session.attempt("camera", lambda: self._look(text))
+        self.session.attempt("camera", lambda: self._look_from(text))
 
     def copy_script(self) -> None:
         """Put a Python script of what was done into the clipboard."""
@@ -273,10 +279,22 @@ class MainWindow(QMainWindow):
         self.menus.show_recent()
         self._show_name()
         self.centre.unsaved.look()
-        if Path(opening.source).suffix.lower() in FIGURES:
-            self.session.attempt("open", lambda: self._look(Pictured.load(opening.source).camera))
+        suffix = Path(opening.source).suffix.lower()
+        if suffix in FIGURES:
+            self.session.attempt(
+                "open", lambda: self._look_from(Pictured.load(opening.source).camera)
+            )
+        elif suffix == PROJECT and Path(opening.source).is_file():
+            self.session.attempt("open", lambda: self._restore(Look.load(opening.source)))
 
-    def _look(self, text: str) -> None:
+    def _restore(self, look: Look) -> None:
+        self.viewport.held.restore(look.ranges)
+        self.session.looks.restore(look.layers)
+        self._look_from(look.camera)
+        if look.quads is not None:
+            self.session.quad_making.wait_for(look.quads)
+
+    def _look_from(self, text: str) -> None:
         camera = read_camera(text)
         if isinstance(camera, str):
             self.viewport.look_from(camera)

@@ -26,6 +26,7 @@ class HeldRanges:
 
     def __init__(self) -> None:
         self.ranges: dict[str, Range] = {}
+        self._restored: dict[str, Range] = {}
         self._of: Problem | None = None
 
     def follow(self, state: SessionState) -> None:
@@ -34,11 +35,15 @@ class HeldRanges:
         if problem is None:
             return
         if self._of is None or not problem.same_but_method(self._of):
-            self.ranges = {}
+            self.ranges, self._restored = self._restored, {}
         self._of = problem
         if state.start is not None and "error" not in self.ranges:
             areas = state.start.surface.face_areas
             self.ranges["error"] = density_limits(state.start.error_density, areas)
+
+    def restore(self, ranges: Ranges) -> None:
+        """Hold ranges for the field that is to come."""
+        self._restored, self._of = dict(ranges), None
 
     def hold(self, state: SessionState, shown: str, limits: Range) -> None:
         """Keep the limits that the layer `shown` has of a solution."""

@@ -5,8 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
+from crossview.cases.compounds import Either, ListOf
+from crossview.cases.records import documented, key
+from crossview.cases.scalars import Flag, Number, Word
+from crossview.view.colors import COLOR_MAPS
 from crossview.view.values import (
     Elements,
     FloatArray,
@@ -22,44 +26,73 @@ Background = Literal["white", "dark", "transparent"]
 Coloring = Literal["quality", "patch", "plain"]
 
 
+_RANGE = Either((Word({"fit": None}), ListOf(Number(), length=2)))
+"""Limits of colours, or that they are fitted."""
+
+_SHARE, _FACTOR = Number(least=0, most=1), Number(above=0)
+"""How an opacity and a factor are given."""
+
+
+@documented
 @dataclass(frozen=True)
 class LayerSettings:
-    """How one layer is drawn; `LAYERS` says which of these a layer listens to.
+    """How one layer is drawn; `LAYERS` says which of these a layer listens to."""
 
-    Parameters
-    ----------
-    visible : bool
-        Whether the layer is drawn.
-    opacity : float
-        0 (nothing) to 1. For scalars: how much of their colour covers the grey surface.
-    color_map : str
-        A name of `colors.color_map_names()`; empty for the layer's own.
-    value_range : (float, float), optional
-        Colour limits, of the error density powers of 10; None: fitted to the data.
-    size : float
-        Factor on the automatic size of the glyphs, or on the width of the lines.
-    density : float
-        Factor on the automatic number of glyphs.
-    uniform : bool
-        Glyphs of one size instead of exp(H).
-    edges : bool
-        Whether edges are drawn: of triangles, of quads, of a layout those between its patches.
-    coloring : {"quality", "patch", "plain"}
-        What the colours of quads mean: scaled Jacobian, patch, nothing.
-    shaded : bool
-        Whether a scalar's colours are lit, which shows shape; else each is that of the bar.
-    """
-
-    visible: bool = True
-    opacity: float = 1.0
-    color_map: str = ""
-    value_range: tuple[float, float] | None = None
-    size: float = 1.0
-    density: float = 1.0
-    uniform: bool = False
-    edges: bool = False
-    coloring: Coloring = "quality"
-    shaded: bool = False
+    visible: bool = field(
+        default=True, metadata=key(Flag(), "Whether the layer is drawn.", always=True)
+    )
+    opacity: float = field(
+        default=1.0,
+        metadata=key(
+            _SHARE,
+            "0: nothing. For scalars: how much of their colour covers the grey surface.",
+        ),
+    )
+    color_map: str = field(
+        default="",
+        metadata=key(
+            Word({"": "", **{name: name for name in COLOR_MAPS}}),
+            "A name of `COLOR_MAPS`; empty for the layer's own.",
+        ),
+    )
+    value_range: tuple[float, float] | None = field(
+        default=None,
+        metadata=key(_RANGE, "Colour limits, of the error density powers of 10."),
+    )
+    size: float = field(
+        default=1.0,
+        metadata=key(
+            _FACTOR, "Factor on the automatic size of the glyphs, or on the width of the lines."
+        ),
+    )
+    density: float = field(
+        default=1.0, metadata=key(_FACTOR, "Factor on the automatic number of glyphs.")
+    )
+    uniform: bool = field(
+        default=False, metadata=key(Flag(), "Whether glyphs have one size instead of exp(H).")
+    )
+    edges: bool = field(
+        default=False,
+        metadata=key(
+            Flag(),
+            "Whether edges are drawn: of triangles, of quads, of a layout those between patches.",
+            always=True,
+        ),
+    )
+    coloring: Coloring = field(
+        default="quality",
+        metadata=key(
+            Word({name: name for name in get_args(Coloring)}),
+            "What the colours of quads mean: scaled Jacobian, patch, nothing.",
+        ),
+    )
+    shaded: bool = field(
+        default=False,
+        metadata=key(
+            Flag(),
+            "Whether a scalar's colours are lit, which shows shape; else each is that of the bar.",
+        ),
+    )
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from PySide6.QtWidgets import (
     QPushButton,
 )
 
-from crossview.cases.model import Case
+from crossview.cases.gallery import find_case
 from crossview.gui.dialogs import Answer
 from tests.windowing import Hand
 
@@ -79,7 +79,7 @@ def edit(hand: Hand) -> None:
 
 
 def valences(case: Path) -> list[int]:
-    return [s.valence for s in Case.load(case).singularities]
+    return [s.valence for s in find_case(str(case)).singularities]
 
 
 def test_title_marks_what_is_not_saved_until_it_is_undone_or_saved(
@@ -107,12 +107,12 @@ def test_save_asks_for_a_name_once_and_gives_it_a_suffix(hand: Hand, tmp_path: P
     edit(hand)
     naming(str(tmp_path / "mine"))
     hand.key(Qt.Key.Key_S, Qt.KeyboardModifier.ControlModifier)
-    assert valences(tmp_path / "mine.json") == [5, 3, 3, 3]
+    assert valences(tmp_path / "mine.crossview") == [5, 3, 3, 3]
     hand.window.session.edits.change_valence(1, 5)
     hand.window.activateWindow()
     assert QTest.qWaitForWindowActive(hand.window)
     hand.key(Qt.Key.Key_S, Qt.KeyboardModifier.ControlModifier)  # no question
-    assert valences(tmp_path / "mine.json") == [5, 5, 3, 3]
+    assert valences(tmp_path / "mine.crossview") == [5, 5, 3, 3]
     assert not hand.window.isWindowModified()
 
 

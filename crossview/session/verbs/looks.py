@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 from crossview.session.store import Store
 from crossview.session.verbs.solving import Solving
 from crossview.view.scalars import SURFACE_SCALARS
-from crossview.view.scene_view import LayerSettings
+from crossview.view.scene_view import LayerSettings, default_layers
 
 
 class Looks:
@@ -27,6 +28,12 @@ class Looks:
         """Draw one layer otherwise."""
         state = self._store.state.with_layer(name, settings)
         self._store.update(state if state.layers["layout"].visible else state.unsaid("layout"))
+        self._solving.pursue()
+
+    def restore(self, layers: Mapping[str, LayerSettings]) -> None:
+        """Draw these layers as given, all others as at first."""
+        state = replace(self._store.state, layers={**default_layers(), **layers}, uncompared=None)
+        self._store.update(state)
         self._solving.pursue()
 
     def toggle_layer(self, name: str) -> None:
