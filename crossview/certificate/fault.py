@@ -33,9 +33,12 @@ class Fault:
 
     def __str__(self) -> str:
         """The message and the place."""
-        if self.place is None:
-            return self.message
-        return f"{self.message} at ({', '.join(f'{x:.6g}' for x in self.place)})"
+        return self.message if self.place is None else f"{self.message} at {self.where}"
+
+    @property
+    def where(self) -> str:
+        """The place as text, empty if there is none."""
+        return "" if self.place is None else f"({', '.join(f'{x:.4g}' for x in self.place)})"
 
     def to_json(self) -> Measures:
         """The same as JSON values."""

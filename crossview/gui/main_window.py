@@ -78,6 +78,7 @@ class MainWindow(QMainWindow):
         self.layers_panel = LayersPanel(self.session)
         self.convergence_panel = ConvergencePanel(named["compare"])
         self.quads_panel = QuadsPanel(named["mesh"], named["save-quads"])
+        self.quads_panel.look_wanted.connect(self.viewport.look_at)
         self.quads_panel.allow_inverted.toggled.connect(self.files.allow_inverted)
         self.export_panel = ExportPanel(named["figure"])
         self.docks = add_docks(

@@ -30,6 +30,7 @@ from crossview.session.pictures import scene_view
 from crossview.session.session import Session
 from crossview.session.state import SessionState
 from crossview.view.scalars import shown_scalar
+from crossview.workflow.spots import Spot
 
 LATE_MS = 120
 """How long a dragged singularity waits to be drawn together with its field."""
@@ -144,6 +145,11 @@ class Viewport(QWidget):
         self._fitted = None
         self.scene.fit(camera)
         self._update()
+
+    def look_at(self, spot: Spot, height: float) -> None:
+        """Look at a place of the surface from above it, at so much from top to bottom."""
+        place, normal = np.array(spot.place), np.array(spot.normal)
+        self.look_with(self.scene.camera.facing(place, normal, height))
 
     def change_projection(self) -> None:
         """Show in perspective what is shown in parallel, or the other way round."""

@@ -89,6 +89,20 @@ class Camera:
         position = tuple((np.asarray(self.focus) + away).tolist())
         return replace(self, position=position, parallel_scale=None)
 
+    def facing(self, place: FloatArray, normal: FloatArray, height: float) -> Camera:
+        """Look at a place along the normal there, at so much around it from top to bottom."""
+        tan = np.tan(np.radians(_VIEW_ANGLE) / 2.0)
+        away = np.asarray(normal) * (0.5 * height / tan)
+        up = np.asarray(self.up)
+        if np.linalg.norm(np.cross(up, away)) < 0.1 * np.linalg.norm(away) * np.linalg.norm(up):
+            up = np.subtract(self.position, self.focus)
+        return Camera(
+            tuple((place + away).tolist()),
+            tuple(np.asarray(place).tolist()),
+            tuple(_frame(away, up)[1].tolist()),
+            parallel_scale=None if self.parallel_scale is None else 0.5 * height,
+        )
+
     def apply(self, camera: vtkCamera) -> None:
         """Set a VTK camera."""
         camera.SetPosition(*self.position)

@@ -1,4 +1,7 @@
-"""Signs of one size at every distance: "T" at T-junctions, "!" at boundaries that are missed."""
+"""Signs of one size at every distance: "T" at T-junctions, "!" at what is poor.
+
+That is boundaries that the field misses, and of quads the worst.
+"""
 
 from __future__ import annotations
 
@@ -65,7 +68,7 @@ class MarksLayer:
 
 def marks_of(view: SceneView) -> dict[str, FloatArray | None]:
     """Return where each sign is to be, (k, 3), by its letter."""
-    return {"T": view.t_junctions, "!": view.misaligned}
+    return {"T": view.t_junctions, "!": view.worst if view.cover == "quads" else view.misaligned}
 
 
 class _Signs:

@@ -9,9 +9,11 @@ import numpy as np
 
 from crossview.certificate import Certificate
 from crossview.workflow.certification import certified
+from crossview.workflow.expected_sizes import ExpectedSizes, expected_sizes
 from crossview.workflow.layout import SOON, layout, misaligned_boundaries, separatrices
 from crossview.workflow.pipeline import Solution
-from crossview.workflow.quads import MeshOptions, quads
+from crossview.workflow.quads import MeshOptions, fewest, quads
+from crossview.workflow.spots import Spot, WorstQuad, gravest_spot, worst_quads
 from solvers.fields import CrossField
 from solvers.layouts import LayoutError, QuadLayout, Separatrices
 from solvers.progress import Progress, between
@@ -43,6 +45,14 @@ class Meshes:
         What the quads were made with.
     certificate : Certificate or None
         Of the quads.
+    expected : ExpectedSizes or None
+        How long edges will be.
+    fewest : int or None
+        About the least number of quads that the layout can have; None: not known.
+    worst : tuple of WorstQuad
+        Of the quads, to look at.
+    gravest : Spot or None
+        Where the gravest fault is that the certificate finds.
     """
 
     of: CrossField | None = None
@@ -54,6 +64,10 @@ class Meshes:
     quads: QuadMesh | None = None
     options: MeshOptions = field(default_factory=MeshOptions)
     certificate: Certificate | None = None
+    expected: ExpectedSizes | None = None
+    fewest: int | None = None
+    worst: tuple[WorstQuad, ...] = ()
+    gravest: Spot | None = None
 
 
 NO_MESHES = Meshes()
@@ -81,7 +95,8 @@ def lay_out(solution: Solution, made: Meshes) -> Making:
         return _traced(solution, replace(made, layout=None, trouble=trouble))
     yield Progress("sampling the patches", 1.0)
     _ = found.patch_mesh  # cached: drawing asks for it
-    return _traced(solution, replace(made, layout=found, trouble=None))
+    yield Progress("counting the fewest quads", 1.0)
+    return _traced(solution, replace(made, layout=found, trouble=None, fewest=fewest(found)))
 
 
 def make_quads(solution: Solution, made: Meshes, options: MeshOptions) -> Making:
@@ -96,12 +111,27 @@ def make_quads(solution: Solution, made: Meshes, options: MeshOptions) -> Making
     filling = quads(laid_out.layout, options)
     filled = yield from between(filling, share, 1.0)
     _ = filled.scaled_jacobian, filled.irregular, filled.corners, filled.on_boundary
+    _ = filled.edge_lengths
     certificate = certified(solution, filled)
-    return replace(laid_out, quads=filled, options=options, certificate=certificate)
+    return replace(
+        laid_out,
+        quads=filled,
+        options=options,
+        certificate=certificate,
+        worst=worst_quads(filled),
+        gravest=gravest_spot(certificate, solution.surface),
+    )
 
 
 def _traced(solution: Solution, made: Meshes) -> Meshes:
     """Return `made` with the best separatrices there are and the boundaries that are missed."""
     _, places = misaligned_boundaries(solution)
     found = separatrices(solution, made.layout)
-    return replace(made, of=solution.field, separatrices=found, settled=True, misaligned=places)
+    return replace(
+        made,
+        of=solution.field,
+        separatrices=found,
+        settled=True,
+        misaligned=places,
+        expected=expected_sizes(solution),
+    )

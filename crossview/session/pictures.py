@@ -14,7 +14,7 @@ from crossview.session.held_ranges import NO_RANGES, Ranges
 from crossview.session.state import SessionState
 from crossview.view.colors import condition_color
 from crossview.view.field import feature_lines, field_view, markers_of
-from crossview.view.meshes import curves_of, patches_of, quads_of, t_junctions_of
+from crossview.view.meshes import curves_of, patches_of, quads_of, t_junctions_of, worst_of
 from crossview.view.scalars import SURFACE_SCALARS
 from crossview.view.scene_view import Background, LayerSettings, SceneView
 from crossview.view.values import Elements, Marker
@@ -87,6 +87,7 @@ def _with_meshes(view: SceneView, state: SessionState) -> SceneView:
         misaligned=made.misaligned,
         layout=None if made.layout is None else patches_of(made.layout),
         quads=None if made.quads is None else quads_of(made.quads),
+        worst=None if made.quads is None else worst_of(made.quads),
     )
 
 
@@ -108,7 +109,7 @@ def poor_faces(surface: TriSurface) -> IntArray:
 def figure_view(state: SessionState, transparent: bool, held: Ranges = NO_RANGES) -> SceneView:
     """Return what to draw in a figure: what is shown, without what only helps to edit."""
     plain = replace(state, trial=None, focus=Focus(), guide=(), poor=False, tool=SelectTool())
-    view = scene_view(plain, held)
+    view = replace(scene_view(plain, held), worst=None)
     return replace(view, background="transparent") if transparent else view
 
 

@@ -13,6 +13,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from crossview.view.values import FloatArray, Polylines, Quads
+from crossview.workflow.spots import worst_quads
 from solvers.layouts import QuadLayout, Separatrices
 from solvers.quads import QuadMesh
 
@@ -43,6 +44,12 @@ def curves_of(separatrices: Separatrices) -> Polylines:
 def t_junctions_of(separatrices: Separatrices) -> FloatArray:
     """Return (k, 3) where separatrices are cut at T-junctions."""
     return separatrices.t_junctions
+
+
+@_once
+def worst_of(mesh: QuadMesh) -> FloatArray:
+    """Return (k, 3) the middles of the worst quads."""
+    return np.array([quad.spot.place for quad in worst_quads(mesh)]).reshape(-1, 3)
 
 
 @_once

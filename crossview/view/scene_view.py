@@ -227,6 +227,8 @@ class SceneView:
         Where a curve is cut: a "T" each.
     misaligned : (k, 3) float, optional
         On boundaries that the field is not aligned with: a "!" each.
+    worst : (k, 3) float, optional
+        At quads to look at: a "!" each, where quads are drawn.
     layout : Quads, optional
         The patches, finely sampled.
     quads : Quads, optional
@@ -258,6 +260,7 @@ class SceneView:
     separatrices: Polylines | None = None
     t_junctions: FloatArray | None = None
     misaligned: FloatArray | None = None
+    worst: FloatArray | None = None
     layout: Quads | None = None
     quads: Quads | None = None
     title: str = ""

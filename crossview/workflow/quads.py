@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import time
 from collections.abc import Generator, Iterable, Sequence
 from dataclasses import dataclass, replace
@@ -11,7 +12,7 @@ import numpy as np
 from crossview.cases.model import PlacedSingularity
 from crossview.workflow.layout import layout
 from crossview.workflow.solution import Solution
-from solvers.errors import CrossviewError
+from solvers.errors import CrossviewError, SolveError
 from solvers.layouts import QuadLayout
 from solvers.number_checks import real_number, whole_number
 from solvers.progress import Progress, between
@@ -22,6 +23,7 @@ from solvers.quads import (
     QuadMesh,
     bending_conditions,
     bent_spacing,
+    fewest_quads,
     fill,
     quantize_to,
     smooth,
@@ -135,6 +137,24 @@ def quads(layout: QuadLayout, options: MeshOptions) -> Generator[Progress, None,
     best.check()
     chosen = best.quantization
     return replace(best, quantization=chosen and replace(chosen, n_wanted=number))
+
+
+def fewest(layout: QuadLayout) -> int | None:
+    """Return about the least number of quads that a layout can have, its bends followed.
+
+    Parameters
+    ----------
+    layout : QuadLayout
+
+    Returns
+    -------
+    int or None
+        None if no numbers of quads were found.
+    """
+    with contextlib.suppress(SolveError):
+        conditions = bending_conditions(layout, MAX_CHORD)
+        return fewest_quads(layout.tmesh, conditions=conditions).n_quads
+    return None
 
 
 def _filled(

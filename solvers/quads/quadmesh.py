@@ -99,6 +99,12 @@ class QuadMesh:
         return self._edge_table[0]
 
     @cached_property
+    def edge_lengths(self) -> FloatArray:
+        """(e,) length of each edge."""
+        ends = self.vertices[self.edges]
+        return np.asarray(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1))
+
+    @cached_property
     def on_boundary(self) -> BoolArray:
         """(n,) whether each vertex lies on an edge of one quad only."""
         mask = np.zeros(self.n_vertices, dtype=bool)

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QApplication, QLabel, QPushButton
 
 from crossview.cases.gallery import path_of
 from crossview.cases.model import Case
-from crossview.gui.panels.quads import COUNT, LENGTH, NOTHING, STALE, QuadsPanel
+from crossview.gui.panels.quads import COUNT, LENGTH, LENGTHS, NOTHING, STALE, QuadsPanel
 from crossview.session.state import SessionState
 from crossview.view.colors import BAD, CROSS, GOOD, MARK_WARNING, PATCHES, QUAD_EDGE, valence_color
 from tests.inverted import INVERTED
@@ -36,9 +36,9 @@ def offer(hand: Hand, label: str) -> QPushButton:
 
 
 def mark(panel: QuadsPanel) -> str:
-    """The colour of the dot beside what is said of the quads."""
-    dot = panel.findChild(QLabel, "dot").pixmap().toImage()
-    return dot.pixelColor(dot.rect().center()).name()
+    """The colour of the sign beside what is said of the quads."""
+    sign = panel.findChild(QLabel, "dot").pixmap().toImage()
+    return sign.pixelColor(sign.width() // 2, sign.height() // 6).name()
 
 
 def quads_of(path: Path) -> tuple[int, np.ndarray]:
@@ -121,7 +121,40 @@ def test_the_mark_is_green_only_if_nothing_is_wrong(hand: Hand) -> None:
     hand.trigger("mesh")
     hand.wait(lambda: hand.state.made.quads is not None)
     assert mark(panel) == BAD
-    assert panel.said.text().startswith("The area is 0.")
+    assert panel.said.text().startswith("The area is 0.")  # which has no place
+
+
+def test_sizes_before_and_the_worst_quads_after(hand: Hand) -> None:
+    hand.open("disk-4")
+    panel, viewport = hand.window.quads_panel, hand.window.viewport
+    hand.window.docks["Quads"].raise_()
+    panel.count_box.setValue(400)
+
+    # before there are quads: the least number, the least and the largest edge, and where
+    hand.wait(lambda: panel.sizes.isVisible())
+    expected = hand.state.made.expected
+    least, largest = expected.edges(400)
+    assert panel.sizes.fewest.text() == f"{hand.state.made.fewest} quads"
+    assert f"{least:.3g}" in panel.sizes.edges.text()
+    panel.count_box.setValue(100)
+    assert f"{2 * largest:.3g}" in panel.sizes.edges.text()
+    panel.sizes.edges.linkActivated.emit("1")
+    assert viewport.scene.camera.focus == pytest.approx(expected.at_largest.place)
+
+    # after: the edges that came of it, and the worst quads, marked, with a click to look there
+    panel.count_box.setValue(400)
+    hand.trigger("mesh")
+    hand.wait(lambda: hand.state.made.quads is not None)
+    assert not panel.sizes.isVisible()
+    quads, worst = hand.state.made.quads, hand.state.made.worst
+    assert panel.facts["Edges"].text().startswith(f"{quads.edge_lengths.min():.3g} to ")
+    assert f">{worst[0].quality:.2f}</a>" in panel.worst.text()
+    panel.worst.linkActivated.emit("0")
+    assert viewport.scene.camera.focus == pytest.approx(worst[0].spot.place)
+    hand.window.session.looks.toggle_layer("singularities")  # beside which the worst quads are
+    assert hand.shows(MARK_WARNING, hand.place(worst[0].spot.place), reach=9, line=True)
+    panel.measure.setCurrentIndex(LENGTHS)
+    assert panel.histogram.counts.sum() == len(quads.edges)
 
 
 def test_quads_of_an_edge_length(hand: Hand) -> None:

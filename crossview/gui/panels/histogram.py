@@ -1,4 +1,4 @@
-"""A small histogram of the scaled Jacobian, in the colours of its colour bar."""
+"""A small histogram: of scaled Jacobians, in the colours of their bar, or of edges' lengths."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QWidget
 
-from crossview.view.colors import BAD, color_table
+from crossview.view.colors import BAD, SEPARATRIX, color_table
 from crossview.view.scalars import SCALARS
 from crossview.view.texts import MINUS
 from solvers.surface import FloatArray, IntArray
@@ -18,32 +18,51 @@ BINS, STEP, LEAST_HEIGHT = 20, 0.1, 2.0
 """Bars, steps that the range begins at, and pixels that a bar with anything in it has."""
 MARGIN, GAP = 8.0, 1.0
 """Beside the bars, and between two, in pixels. Chosen."""
+WIDE = 1.1
+"""Ratio of the ends that is shown at least. Chosen."""
 
 
 class Histogram(QWidget):
-    """How many quads there are of each quality, from the worst found to 1."""
+    """How many quads there are of each quality, or edges of each length."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.counts: IntArray = np.zeros(0, int)
-        self.low = 0.0
+        self._below = "", "", ""
         self._colors: list[QColor] = []
         self.setMinimumHeight(72)
-        self.setAccessibleName("Quads by scaled Jacobian")
 
     def sizeHint(self) -> QSize:
         """A size that suits a dock."""
         return QSize(200, 90)
 
-    def show_values(self, values: FloatArray) -> None:
-        """Draw these qualities, at least one."""
+    def show_lengths(self, lengths: FloatArray) -> None:
+        """Draw these lengths, at least one, from the least to the largest by equal ratios."""
+        low, high = float(lengths.min()), float(lengths.max())
+        if high < WIDE * low:  # of squares alone
+            low, high = high / WIDE, low * WIDE
+        edges = np.geomspace(max(low, 1e-9 * high), high, BINS + 1)
+        edges[0], edges[-1] = min(edges[0], low), high
+        counts = np.histogram(lengths, edges)[0]
+        colors = [QColor(SEPARATRIX)] * BINS
+        self._show(counts, colors, (f"{low:.3g}", "edge length", f"{high:.3g}"))
+        self.setToolTip("Lengths of the edges, each bar longer than the last by the same ratio")
+        self.setAccessibleName("Edges by length")
+
+    def show_quality(self, values: FloatArray) -> None:
+        """Draw these scaled Jacobians, at least one, from the worst to 1."""
         worst = float(values.min())
         # at least two steps, so that a mesh of squares is no single bar over nothing
-        self.low = min(math.floor(worst / STEP + 1e-9) * STEP, 1.0 - 2.0 * STEP)
-        edges = np.linspace(self.low, 1.0, BINS + 1)
-        self.counts = np.histogram(np.minimum(values, 1.0), edges)[0]
-        self._colors = [_color(centre) for centre in (edges[:-1] + edges[1:]) / 2.0]
+        low = min(math.floor(worst / STEP + 1e-9) * STEP, 1.0 - 2.0 * STEP)
+        edges = np.linspace(low, 1.0, BINS + 1)
+        counts = np.histogram(np.minimum(values, 1.0), edges)[0]
+        colors = [_color(centre) for centre in (edges[:-1] + edges[1:]) / 2.0]
+        self._show(counts, colors, (f"{low:.1f}".replace("-", MINUS), "scaled Jacobian", "1"))
         self.setToolTip("Scaled Jacobian: 1 is a square, 0 or less a quad that is folded over")
+        self.setAccessibleName("Quads by scaled Jacobian")
+
+    def _show(self, counts: IntArray, colors: list[QColor], below: tuple[str, str, str]) -> None:
+        self.counts, self._colors, self._below = counts, colors, below
         self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:
@@ -70,10 +89,9 @@ class Histogram(QWidget):
                 QPointF(frame.right(), frame.bottom() + 0.5),
             )
             below = QRectF(frame.left(), frame.bottom() + 2, frame.width(), metrics.height())
-            low = f"{self.low:.1f}".replace("-", MINUS)
-            painter.drawText(below, Qt.AlignmentFlag.AlignLeft, low)
-            painter.drawText(below, Qt.AlignmentFlag.AlignHCenter, "scaled Jacobian")
-            painter.drawText(below, Qt.AlignmentFlag.AlignRight, "1")
+            sides = Qt.AlignmentFlag.AlignLeft, Qt.AlignmentFlag.AlignHCenter
+            for side, text in zip((*sides, Qt.AlignmentFlag.AlignRight), self._below, strict=True):
+                painter.drawText(below, side, text)
 
 
 def _color(quality: float) -> QColor:

@@ -19,6 +19,7 @@ ROWS = (
     "Irregular",
     "Corners",
     "Euler",
+    "Edges",
     "Scaled Jac.",
     "Patches",
     "T-junctions",
@@ -42,7 +43,7 @@ def quad_facts(
     """Compare a quad mesh with what was imposed, and say what its certificate finds."""
     wanted = Counter(s.valence for s in solution.singularities if s.valence != 4)
     corners = Counter(2 - k for k in solution.problem.chosen_corners.values() if k != 0)
-    quality = mesh.scaled_jacobian
+    quality, lengths = mesh.scaled_jacobian, mesh.edge_lengths
     worst = float(quality.min())
     euler = solution.surface.euler_characteristic
     said = verdict(certificate)
@@ -52,6 +53,7 @@ def quad_facts(
         "Irregular": _beside(mesh.irregular, wanted, lambda n: f"valence {n}"),
         "Corners": _beside(mesh.corners, corners, lambda n: count(n, "quad")),
         "Euler": f"{mesh.euler_characteristic} of {euler}".replace("-", MINUS),
+        "Edges": f"{lengths.min():.3g} to {lengths.max():.3g}\nmean {lengths.mean():.3g}",
         "Scaled Jac.": f"min {worst:.2f}\nmean {float(quality.mean()):.3f}".replace("-", MINUS),
         "Patches": f"{grouped(layout.patches)}, {'' if layout.conforming else 'not '}conforming",
         "T-junctions": grouped(len(layout.t_junctions)),

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QLocale, Qt
+import contextlib
+from html import escape
+
+from PySide6.QtCore import QLocale, Qt, Signal
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import (
     QCheckBox,
@@ -22,17 +25,29 @@ from PySide6.QtWidgets import (
 
 from crossview.gui.icons import verdict_icon
 from crossview.gui.panels.histogram import Histogram
+from crossview.gui.panels.links import LinkLabel, faint, link
 from crossview.gui.panels.quad_facts import ROWS, quad_facts
+from crossview.gui.panels.quad_sizes import QuadSizes
 from crossview.gui.panels.scrolling import scrolled
 from crossview.gui.panels.validity import DOT
 from crossview.session.state import SessionState
 from crossview.view.colors import BAD, GOOD
+from crossview.view.texts import MINUS
 from crossview.workflow.quads import DEFAULT_QUADS, MeshOptions
+from crossview.workflow.spots import GOOD as GOOD_QUAD
+from crossview.workflow.spots import Spot
+from solvers.errors import CrossviewError
 from solvers.quads import MAX_CHORD, MOST_QUADS
 from solvers.surface import TriSurface
 
 COUNT, LENGTH = range(2)
 """Rows of the box that says what is asked for."""
+
+QUALITY, LENGTHS = range(2)
+"""Rows of the box that says what the histogram counts."""
+
+AROUND = 8.0
+"""How much is seen around a quad, in its longest side. Chosen."""
 
 NOTHING = "No quads yet."
 """Said before there are quads."""
@@ -43,6 +58,9 @@ STALE = "The quads were of an earlier state and are gone; make them again."
 
 class QuadsPanel(QScrollArea):
     """Edits `MeshOptions`, makes quads and says what they are like."""
+
+    look_wanted = Signal(Spot, float)
+    """A place of the surface to look at, and how much around it."""
 
     def __init__(self, make: QAction, save: QAction, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -88,12 +106,23 @@ class QuadsPanel(QScrollArea):
         self.allow_inverted.setToolTip("Save the quads although some are inverted")
         self.save_button = QToolButton()
         self.save_button.setDefaultAction(save)
-        self._dot, self.said = QLabel(), QLabel(NOTHING)
+        self._dot, self.said = QLabel(), LinkLabel()
         self._dot.setObjectName("dot")
-        self.said.setWordWrap(True)
-        self.said.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.said.linkActivated.connect(self._look_at_fault)
         self.facts: dict[str, QLabel] = {}
-        self.histogram = Histogram()
+        self.worst = LinkLabel()
+        self.worst.setToolTip("Scaled Jacobians of the worst quads; click to look there")
+        self.worst.linkActivated.connect(self._look_at_quad)
+        self.sizes = QuadSizes()
+        self.sizes.look_wanted.connect(self.look_wanted)
+        self.histogram, self.measure = Histogram(), QComboBox()
+        self.measure.addItems(["Scaled Jacobian", "Edge lengths"])
+        self.measure.setToolTip("What the histogram counts")
+        self.measure.currentIndexChanged.connect(self._count)
+        self._shown = SessionState()
+        for changed in (self.count_box.valueChanged, self.length_box.valueChanged):
+            changed.connect(self._expect)
+        self.unit.currentIndexChanged.connect(self._expect)
         self._filled: TriSurface | None = None
         self._lay_out()
         self._show(SessionState())
@@ -124,12 +153,11 @@ class QuadsPanel(QScrollArea):
         self.length_box.setValue(length)
 
     def _show(self, state: SessionState) -> None:
-        made = state.made
+        made, self._shown = state.made, state
         quads = made.quads if state.solution is not None else None
-        self._form.setVisible(quads is not None)
-        self.histogram.setVisible(quads is not None)
-        self._dot.setVisible(quads is not None)
-        self.save_button.setVisible(quads is not None)
+        for part in (self._form, self.measure, self.histogram, self._dot, self.save_button):
+            part.setVisible(quads is not None)
+        self._expect()
         certificate = made.certificate
         spoiled = quads is not None and certificate is not None and certificate.inverted > 0
         self.allow_inverted.setVisible(spoiled)
@@ -141,10 +169,44 @@ class QuadsPanel(QScrollArea):
         self._filled = state.solution.problem.surface
         facts = quad_facts(made.layout, quads, state.solution, certificate)
         self._dot.setPixmap(verdict_icon(GOOD if facts.good else BAD).pixmap(DOT))
-        self.said.setText(facts.verdict)
+        place = "" if certificate.right else certificate.faults[0].where
+        self.said.setText(_with_link(facts.verdict, place))
         for title, text in facts.rows.items():
             self.facts[title].setText(text)
-        self.histogram.show_values(quads.scaled_jacobian)
+        worst = [link(f"{quad.quality:.2f}", str(i)) for i, quad in enumerate(made.worst)]
+        self.worst.setText(", ".join(worst).replace("-", MINUS) or f"none below {GOOD_QUAD}")
+        self._count()
+
+    def _count(self) -> None:
+        """Fill the histogram."""
+        quads = self._shown.made.quads
+        if quads is None:
+            return
+        if self.measure.currentIndex() == QUALITY:
+            self.histogram.show_quality(quads.scaled_jacobian)
+        else:
+            self.histogram.show_lengths(quads.edge_lengths)
+
+    def _expect(self) -> None:
+        """Say what to expect of the options, until there are quads."""
+        state = self._shown
+        if state.document is None or state.solution is None or state.made.quads is not None:
+            self.sizes.hide()
+            return
+        number = None
+        with contextlib.suppress(CrossviewError):  # making the quads tells it
+            number = self.options.number_on(state.document.surface)
+        self.sizes.show_sizes(state.made, number)
+
+    def _look_at_quad(self, number: str) -> None:
+        quad = self._shown.made.worst[int(number)]
+        self.look_wanted.emit(quad.spot, AROUND * quad.edge)
+
+    def _look_at_fault(self) -> None:
+        made = self._shown.made
+        if made.gravest is not None and made.certificate is not None:
+            edge = made.certificate.measures["mean_edge"]
+            self.look_wanted.emit(made.gravest, AROUND * edge)
 
     def _lay_out(self) -> None:
         layout = scrolled(self)
@@ -174,15 +236,18 @@ class QuadsPanel(QScrollArea):
             self.facts[title] = QLabel()
             self.facts[title].setWordWrap(True)
             self.facts[title].setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-            form.addRow(_faint(title), self.facts[title])
+            form.addRow(faint(title), self.facts[title])
+        form.addRow(faint("Worst"), self.worst)
+        layout.addWidget(self.sizes)
         layout.addWidget(self._form)
+        layout.addWidget(self.measure)
         layout.addWidget(self.histogram)
         layout.addWidget(self.allow_inverted)
         layout.addWidget(self.save_button)
         layout.addStretch(1)
 
 
-def _faint(text: str) -> QLabel:
-    label = QLabel(text)
-    label.setForegroundRole(label.palette().ColorRole.PlaceholderText)
-    return label
+def _with_link(text: str, place: str) -> str:
+    """A text in which a place, if there is one, is a link."""
+    before, found, after = text.partition(place) if place else (text, "", "")
+    return escape(before) + (link(found, "place") if found else "") + escape(after)
