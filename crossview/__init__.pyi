@@ -13,6 +13,7 @@ from crossview.library import read_surface as read_surface
 from crossview.library import render as render
 from crossview.library import report as report
 from crossview.library import simplify as simplify
+from crossview.library import snap as snap
 from crossview.library import solve as solve
 from crossview.library import write_case as write_case
 from crossview.library import write_mesh as write_mesh

@@ -1,9 +1,9 @@
 """The verbs of the command line and of the window as functions, for scripts.
 
 Each takes and returns values that nothing changes afterwards: `read` makes a `Problem`, `natural`,
-`complete`, `make_valid`, `improve` and `simplify` make others of it, `solve` a `Solution`,
-`layout` a `QuadLayout`, `quads` a `QuadMesh`. What takes long calls `progress`, if it is given,
-with each `solvers.Progress`.
+`complete`, `make_valid`, `improve`, `snap` and `simplify` make others of it, `solve` a
+`Solution`, `layout` a `QuadLayout`, `quads` a `QuadMesh`. What takes long calls `progress`, if it
+is given, with each `solvers.Progress`.
 """
 
 from __future__ import annotations
@@ -296,6 +296,40 @@ def improve(problem: Problem, *, progress: Watch = None) -> Problem:
     """
     _require("problem", problem, Problem)
     return run(configurations.improve(problem), progress)[0]
+
+
+def snap(problem: Problem, *, progress: Watch = None) -> Problem:
+    """Move unlocked singularities until separatrices meet what they nearly meet.
+
+    Parameters
+    ----------
+    problem : Problem
+        Whose index budget holds; if it is not valid it is made valid first.
+    progress : callable, optional
+        Called with each step; those that are `solvers.layouts.Snapped` have the connections.
+
+    Returns
+    -------
+    Problem
+        The same with its singularities moved, valid.
+
+    Raises
+    ------
+    SingularityError
+        None may move, none is nearly met, or they cannot be made valid.
+
+    Examples
+    --------
+    >>> import crossview
+    >>> from crossview import Problem, Singularity
+    >>> surface = crossview.primitives.disk(edge_length=0.1)
+    >>> places = [[0.5, 0.03, 0], [0, 0.5, 0], [-0.5, 0, 0], [0, -0.5, 0]]
+    >>> threes = [Singularity(surface.closest_point(place), 3) for place in places]
+    >>> crossview.layout(crossview.solve(crossview.snap(Problem(surface, threes)))).patches
+    5
+    """
+    _require("problem", problem, Problem)
+    return run(configurations.snap(problem), progress)[0]
 
 
 def simplify(

@@ -44,6 +44,7 @@ for module, name in (
     ("complete", "complete"),
     ("make_valid", "make_valid"),
     ("improve", "improve"),
+    ("snap", "snap"),
     ("simplify", "simplify"),
     ("batch", "batch"),
     ("schema", "schema"),

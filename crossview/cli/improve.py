@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator
 from dataclasses import replace
 
 from crossview.cli.options import NewCase
 from crossview.workflow import configurations
-from crossview.workflow.layout import layout_soon
-from crossview.workflow.pipeline import Pipeline
 from crossview.workflow.problem import Problem
-from solvers.layouts import QuadLayout
-from solvers.progress import Progress
 
 
 def improve(case: str, /, *, new: NewCase) -> None:
@@ -25,24 +20,10 @@ def improve(case: str, /, *, new: NewCase) -> None:
     found = new.chosen.case(case)
     problem = Problem.from_case(found)
     improved, end = new.watch(configurations.improve(problem))
-    before, after = (
-        "" if new.quiet else _counts(new.watch(_layout(each)))
-        for each in (replace(problem, singularities=end.start), improved)
-    )
+    gained = new.gained(replace(problem, singularities=end.start), improved)
     new.write(
         found,
         improved,
         f"improved: variance of H {end.before.variance:.3g} -> {end.sizes.variance:.3g}, "
-        f"sizes {end.before.ratio:.3g} -> {end.sizes.ratio:.3g} to 1, {before} -> {after}",
+        f"sizes {end.before.ratio:.3g} -> {end.sizes.ratio:.3g} to 1, {gained}",
     )
-
-
-def _layout(problem: Problem) -> Generator[Progress, None, QuadLayout | None]:
-    solution = yield from Pipeline().solve(problem)
-    return (yield from layout_soon(solution))
-
-
-def _counts(layout: QuadLayout | None) -> str:
-    if layout is None:
-        return "no layout"
-    return f"{layout.patches} patches and {len(layout.t_junctions)} T-junctions"

@@ -11,6 +11,7 @@ from cyclopts import Group, Parameter
 from crossview.cases.gallery import find_case
 from crossview.cases.model import Case
 from crossview.cli.terminal import say, watch
+from crossview.workflow.coarseness import coarseness
 from crossview.workflow.problem import Problem
 from crossview.workflow.quads import MeshOptions
 from solvers.errors import CrossviewError
@@ -98,6 +99,19 @@ class NewCase:
     def watch(self, computation: Generator[Progress, None, T]) -> T:
         """Run a computation, as `crossview.cli.terminal.watch`."""
         return watch(computation, self.quiet)
+
+    def gained(self, before: Problem, after: Problem) -> str:
+        """Return how coarse the layouts of two problems are, in words; nothing if it is not told.
+
+        Parameters
+        ----------
+        before, after : Problem
+            Valid.
+        """
+        if self.quiet:
+            return ""
+        told = (self.watch(coarseness(problem)) for problem in (before, after))
+        return " -> ".join(str(found or "no layout") for found in told)
 
     def write(self, found: Case, made: Problem, summary: str) -> None:
         """Write the new case and say what came of it.

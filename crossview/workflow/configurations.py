@@ -18,6 +18,8 @@ from solvers.fields import (
     IsotropicSolver,
     natural_singularities,
 )
+from solvers.layouts import Snapped
+from solvers.layouts import snap as moved_to_meet
 from solvers.singularities import require_budget
 from solvers.validity import Improved, Moved, missing_singularities
 from solvers.validity import improve as moved_to_even_sizes
@@ -131,6 +133,30 @@ def improve(problem: Problem) -> Generator[Progress, None, tuple[Problem, Improv
         problem.corners,
         problem.options.refine,
         wanted=wanted if wanted is None or wanted.ndim == 1 else np.sqrt(wanted.prod(axis=1)),
+        features=problem.features,
+    )
+    return replace(problem, singularities=end.singularities), end
+
+
+def snap(problem: Problem) -> Generator[Progress, None, tuple[Problem, Snapped]]:
+    """Move the unlocked singularities until separatrices meet what they nearly meet.
+
+    Returns
+    -------
+    Problem
+    Snapped
+        The last step of the way: which singularities are joined.
+
+    Raises
+    ------
+    SingularityError
+        As `solvers.layouts.snap`.
+    """
+    end = yield from moved_to_meet(
+        problem.surface,
+        problem.singularities,
+        problem.corners,
+        problem.options.refine,
         features=problem.features,
     )
     return replace(problem, singularities=end.singularities), end

@@ -7,6 +7,7 @@ from solvers.layouts.gauge import in_joining_gauge, joined_field
 from solvers.layouts.layout import QuadLayout, quad_layout
 from solvers.layouts.patches import PatchMesh
 from solvers.layouts.separatrices import Separatrices, field_separatrices
+from solvers.layouts.snapping import Snapped, snap
 from solvers.layouts.tmesh import TMesh
 
 __all__ = [
@@ -14,9 +15,11 @@ __all__ = [
     "PatchMesh",
     "QuadLayout",
     "Separatrices",
+    "Snapped",
     "TMesh",
     "field_separatrices",
     "in_joining_gauge",
     "joined_field",
     "quad_layout",
+    "snap",
 ]

@@ -7,6 +7,8 @@ ends at a node that lies off it by more than rounding.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from scipy.sparse import coo_array, csr_array
 
@@ -102,16 +104,50 @@ def conditions(traces: Traces, passed: IntArray) -> csr_array:
     sparse array
         Coefficients of the components of images: the offsets of the nodes from the traces.
     """
+    ways = [way_between(traces, pair) for pair in passed]
+    return _offsets_across(traces, [(way.halfedge, way.factor) for way in ways])
+
+
+@dataclass(frozen=True, eq=False)
+class Way:
+    """Halfedges whose images lead from a node along its trace, and back along another, to a node.
+
+    Parameters
+    ----------
+    halfedge : (s,) int array
+        In the order of the way.
+    factor : (s,) complex array
+        What their images are multiplied with, to be in the frame along the first trace.
+    along : (s,) complex array
+        What any vector's image in their triangles is multiplied with to be in that frame.
+    """
+
+    halfedge: IntArray
+    factor: ComplexArray
+    along: ComplexArray
+
+
+def way_between(traces: Traces, pair: IntArray) -> Way:
+    """Return the way between two nodes.
+
+    Parameters
+    ----------
+    traces : Traces
+        In any map.
+    pair : (2,) int array
+        The chords of two traces that cross.
+    """
+    a, b = pair
     axis, face = traces.chords.axis, traces.chords.face
-    ways = []
-    for a, b in passed:
-        over, back = _corner_steps(traces, a), _corner_steps(traces, b)
-        between = _steps(_reference(traces, a), _reference(traces, b))
-        halfedge = np.concatenate([over[0], 3 * face[a] + between[0], back[0]])
-        turned = AXES[axis[b]] / AXES[axis[a]]
-        factor = [over[1], between[1] / AXES[axis[a]], -turned * back[1]]
-        ways.append((halfedge, np.concatenate(factor)))
-    return _offsets_across(traces, ways)
+    over, back = _corner_steps(traces, a), _corner_steps(traces, b)
+    between = _steps(_reference(traces, a), _reference(traces, b))
+    turned = AXES[axis[b]] / AXES[axis[a]]
+    here = np.full(len(between[0]), AXES[axis[a]].conj())
+    return Way(
+        np.concatenate([over[0], 3 * face[a] + between[0], back[0][::-1]]),
+        np.concatenate([over[1], between[1] * here, -turned * back[1][::-1]]),
+        np.concatenate([over[2], here, turned * back[2][::-1]]),
+    )
 
 
 def ending(traces: Traces, last: IntArray) -> csr_array:
@@ -154,21 +190,21 @@ def _offsets_across(traces: Traces, ways: list[tuple[IntArray, ComplexArray]]) -
     return csr_array(coo_array((np.concatenate(values), indices), shape=shape))
 
 
-def _corner_steps(traces: Traces, last: int) -> tuple[IntArray, ComplexArray]:
+def _corner_steps(traces: Traces, last: int) -> tuple[IntArray, ComplexArray, ComplexArray]:
     """Return halfedges and factors that sum to the way from a node to a chord's triangle.
 
-    To the corner left of where the trace enters it, in the frame along the trace.
+    To the corner left of where the trace enters it, in the frame along the trace; last what takes
+    any image in their triangles to that frame.
     """
     first = int(traces.offsets[traces.chords.trace[last]])
     chords = traces.chords[np.arange(first, last)]
     start, end = chords.side_in, (chords.side_out + ~chords.corner_out) % 3
     forward, backward = end == (start + 1) % 3, start == (end + 1) % 3
     along = AXES[chords.axis].conj()
-    halfedge = np.concatenate(
-        [(3 * chords.face + start)[forward], (3 * chords.face + end)[backward]]
-    )
-    factor = np.concatenate([along[forward], -along[backward]])
-    return halfedge, factor
+    moving = forward | backward
+    halfedge = 3 * chords.face + np.where(forward, start, end)
+    factor = np.where(forward, along, -along)
+    return halfedge[moving], factor[moving], along[moving]
 
 
 def _reference(traces: Traces, chord: int) -> int:

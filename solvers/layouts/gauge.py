@@ -17,7 +17,7 @@ from solvers.layouts.crossings import Crossings, crossings
 from solvers.layouts.nodes import singular_nodes, starts_at
 from solvers.layouts.tracing import Chords, Traces, trace
 from solvers.singularities.budget import Singularity
-from solvers.surface.triangulation import QUARTER, FloatArray, wrap
+from solvers.surface.triangulation import QUARTER, BoolArray, FloatArray, wrap
 
 FAR = 1.5
 """Length of the curves that are looked at, in square roots of the area in the map. Chosen."""
@@ -138,16 +138,16 @@ def joining_gauge(field: CrossField) -> float:
 
 
 def _turn(field: CrossField) -> float:
-    chart = _chart(field)
+    chart = chart_by_sides(field)
     nodes = singular_nodes(chart, field)
     far = FAR * float(chart.area) ** 0.5
     traces = trace(chart, nodes, starts_at(chart, nodes), 0.0, far)
-    traces = replace(traces, chords=_before_winding(traces.chords))
+    traces = replace(traces, chords=traces.chords[before_winding(traces.chords)])
     return _best_gauge(traces, crossings(chart, traces.chords))
 
 
-def _before_winding(chords: Chords) -> Chords:
-    """Return the chords of each trace up to where it comes to a triangle for the third time.
+def before_winding(chords: Chords) -> BoolArray:
+    """Return which chords (c,) are before their trace comes to a triangle for the third time.
 
     Where H is large a curve may go round and round a few triangles, and cross others, and itself,
     millions of times.
@@ -157,10 +157,10 @@ def _before_winding(chords: Chords) -> Chords:
     third = order[2:][(trace[2:] == trace[:-2]) & (face[2:] == face[:-2])]
     until = np.full(chords.trace.max(initial=-1) + 1, np.inf)
     np.minimum.at(until, chords.trace[third], chords.start[third])
-    return chords[chords.start < until[chords.trace]]
+    return np.asarray(chords.start < until[chords.trace])
 
 
-def _chart(field: CrossField) -> Chart:
+def chart_by_sides(field: CrossField) -> Chart:
     """Return the triangles by the size and the cross at the middle of each side.
 
     As theta is conjugate to H, two triangles have nearly the same image of the side they share.

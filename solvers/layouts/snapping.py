@@ -1,0 +1,196 @@
+"""Singularities moved until separatrices that nearly meet others do: saddle connections.
+
+Each is one real equation more beside the holonomy defects. Newton's method solves all of them by
+the least moves; the fresh field of each step tells how far off they are. Those that hold already
+are kept; what would take more than a little, or more freedom than there is, is left out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from solvers.errors import SingularityError
+from solvers.features.edges import Features, no_features
+from solvers.fields.isotropic import IsotropicSolver
+from solvers.layouts.saddle_connections import NEAR, Configuration, Connected, Places
+from solvers.progress import Progress
+from solvers.singularities.budget import Singularity, checked_singularities, require_budget
+from solvers.surface.refinement import LEVELS
+from solvers.surface.triangulation import FloatArray, IntArray
+from solvers.surface.trisurface import TriSurface
+from solvers.validity.attempts import make_valid
+from solvers.validity.constrained_moves import Blocked, ConstrainedMoves
+from solvers.validity.search import TOLERANCE, Moved, Search
+
+MET, EXACT = np.radians(0.5), np.radians(0.1)
+"""Angles of a miss that counts as none, and of one that is not tried to be made smaller, radians.
+
+Chosen: the maps that layouts are cut along differ from the field by as much as the second, and they
+join what is nearer than a degree.
+"""
+
+STEPS = 8
+"""Newton steps at most. Chosen: 2 to 4 are usual."""
+
+KEPT = 0.75
+"""Share of the connections that are tried again where all of them are too much. Chosen."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Snapped(Moved):
+    """A step on the way to separatrices that meet singularities; the last is the result.
+
+    Parameters
+    ----------
+    stage : str
+        As in `Progress`.
+    fraction : float
+        As in `Progress`.
+    singularities : tuple of Singularity
+        Where they are.
+    defects : (c,) float array
+        Their holonomy defects, radians.
+    turns : tuple of int
+        As in `Moved`: no turns.
+    aim : str
+        As in `Moved`; empty.
+    start : tuple of Singularity
+        The valid configuration that was started from.
+    connections : (p, 2) int array
+        The singularity that a separatrix leaves, and the one that it is to meet.
+    misses : (p,) float array
+        By how much it does not, radians.
+
+    Examples
+    --------
+    >>> from solvers import run
+    >>> from solvers.layouts import Snapped, snap
+    >>> from solvers.primitives import disk
+    >>> from solvers.singularities import Singularity
+    >>> surface = disk(edge_length=0.1)
+    >>> places = [[0.5, 0.03, 0], [0, 0.5, 0], [-0.5, 0, 0], [0, -0.5, 0]]
+    >>> threes = [Singularity(surface.closest_point(place), 3) for place in places]
+    >>> way = []
+    >>> end = run(snap(surface, threes), way.append)
+    >>> bool(end.misses.max() < 0.002 < max(s.misses.max() for s in way if isinstance(s, Snapped)))
+    True
+    """
+
+    start: Places
+    connections: IntArray
+    misses: FloatArray
+
+
+def snap(
+    surface: TriSurface,
+    singularities: Iterable[Singularity],
+    corners: Mapping[int, int] | None = None,
+    levels: int = LEVELS,
+    *,
+    features: Features | None = None,
+) -> Generator[Progress, None, Snapped]:
+    """Move the unlocked singularities until separatrices meet what they nearly meet.
+
+    Parameters
+    ----------
+    surface : TriSurface
+        The surface.
+    singularities : iterable of Singularity
+        A configuration that meets the index budget; if it is not valid it is made valid first.
+    corners : mapping of int to int, optional
+        As for `IsotropicSolver`.
+    levels : int, optional
+        Of refinement at the singularities.
+    features : Features, optional
+        Of the surface. No singularity crosses one, and one on a feature stays.
+
+    Returns
+    -------
+    Snapped
+        The valid configuration, verified by a fresh operator, and which singularities are joined;
+        the result of the computation, for `solvers.run`.
+
+    Raises
+    ------
+    SingularityError
+        If the index budget is missed, no singularity is free to move, or no separatrix can be made
+        to meet another singularity.
+    ValidityError
+        As `make_valid`.
+
+    Examples
+    --------
+    Four valences 3 on a disk, one off the corner of their square:
+
+    >>> from solvers import run
+    >>> from solvers.layouts import snap
+    >>> from solvers.primitives import disk
+    >>> from solvers.singularities import Singularity
+    >>> surface = disk(edge_length=0.1)
+    >>> places = [[0.5, 0.03, 0], [0, 0.5, 0], [-0.5, 0, 0], [0, -0.5, 0]]
+    >>> threes = [Singularity(surface.closest_point(place), 3) for place in places]
+    >>> end = run(snap(surface, threes))
+    >>> sorted(sorted(pair) for pair in end.connections.tolist())
+    [[0, 1], [0, 3], [1, 2], [2, 3]]
+    """
+    start = checked_singularities(singularities)
+    solver = IsotropicSolver(surface, corners)
+    require_budget(surface, start, solver.corners)
+    along = no_features(surface) if features is None else features.require_on(surface)
+    moves = ConstrainedMoves(surface, solver.holonomy, start, along)
+    if not moves.free.any():
+        raise SingularityError(
+            "no singularity may move", advice="unlock some" if start else "add some"
+        )
+    if np.abs(solver.holonomy.defects(start)).max(initial=0.0) > TOLERANCE:
+        valid = yield from make_valid(surface, start, corners, levels, features=along)
+        start = valid.singularities
+    yield Progress("looking for near misses", 0.0)
+    first = Configuration(solver, moves, levels, start)
+    wanted = first.near_misses()
+    while len(wanted):
+        met = yield from _newton(first, wanted)
+        if met is not None:
+            search = Search(surface, solver.holonomy, start, along)
+            try:
+                end = yield from search.verify(met.singularities, met.turns, corners, levels)
+            except Blocked:
+                pass
+            else:
+                found = met.followed(end.singularities, np.zeros((len(start), 2)))
+                if found is not None:
+                    return _told("valid", 1.0, found, end.defects, start)
+        wanted = wanted[: int(KEPT * len(wanted))]
+    raise SingularityError(
+        "no separatrix can be made to meet a singularity that it misses",
+        f"by less than {np.degrees(NEAR):.0f} degrees, with small moves of those that may",
+        "move some nearer, or unlock some",
+    )
+
+
+def _newton(first: Configuration, wanted: IntArray) -> Generator[Progress, None, Connected | None]:
+    """Move the singularities until the wanted passings are none; None where they cannot."""
+    at, start = Connected(first, wanted), first.singularities
+    for step in range(STEPS):
+        yield _told("snapping", 0.9 * step / STEPS, at, at.base.defects, start)
+        moved = None if at.worst < EXACT else at.advance()
+        if moved is None:
+            break
+        at = moved
+    return at if at.worst < MET else None
+
+
+def _told(stage: str, done: float, at: Connected, defects: FloatArray, start: Places) -> Snapped:
+    return Snapped(
+        stage,
+        done,
+        at.singularities,
+        defects,
+        at.turns,
+        start=start,
+        connections=at.passings.nodes,
+        misses=at.passings.angles,
+    )
