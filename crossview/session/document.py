@@ -84,7 +84,8 @@ class Document:
 
     def existence_with(self, singularities: Sequence[Singularity]) -> Existence:
         """Whether any quad mesh has other singularities in their place."""
-        turns = self.problem.known_turns
+        turning = any(s.index for s in singularities)
+        turns = None if turning else self.problem.known_turns
         return existence(self.surface, singularities, self.corners, turns)
 
     def with_singularities(self, singularities: Sequence[Singularity]) -> Document:

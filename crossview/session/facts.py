@@ -271,11 +271,17 @@ class Facts:
 
     @property
     def existence(self) -> Existence | None:
-        """Whether any quad mesh has what the trial would make of the configuration."""
+        """Whether any quad mesh has what the trial would make of the configuration.
+
+        Without one, by the turns and the sectors of the solution too.
+        """
         if self.document is None:
             return None
         if self.trial is None or self.trial.drag:
-            return self.document.existence
+            verdict = self.solution.verdict if self.solved and self.solution else None
+            if verdict is None or verdict.theorem is None or self.trial is not None:
+                return self.document.existence
+            return Existence("impossible", verdict.theorem, verdict.remedies)
         return self.document.existence_with(self.trial.singularities)
 
     @property

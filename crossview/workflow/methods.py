@@ -16,6 +16,7 @@ from solvers.fields import (
     aligned_field,
     alternating_field,
     anisotropic_field,
+    field_existence,
     holonomy_class,
     judge,
 )
@@ -109,6 +110,5 @@ def with_map(integrated: IntegratedField, limits: Limits) -> MappedField | None:
     field = integrated.field
     if field.energy > limits.energy:
         return None
-    turns = holonomy_class(integrated.aligned)
-    known = existence(field.surface, field.singularities, field.corners, turns)
-    return None if known.theorem is not None else MappedField.of(integrated)
+    possible = field_existence(integrated.aligned).theorem is None
+    return MappedField.of(integrated) if possible else None

@@ -25,12 +25,12 @@ from solvers.fields import (
     IsotropicSolver,
     Limits,
     PreparedSurface,
-    holonomy_class,
+    field_existence,
     judge,
     prepare,
 )
 from solvers.layouts import in_joining_gauge, joined_field
-from solvers.maps import MappedField
+from solvers.maps import MappedField, with_possible_turns
 from solvers.progress import Progress, between
 from solvers.singularities import require_budget, require_places
 from solvers.surface import FloatArray
@@ -94,6 +94,8 @@ class Pipeline:
             with _timed(seconds, "align"):
                 if self._aligned is None:
                     self._aligned = joined_field(prepared, problem.options.turns)
+                    if problem.options.turns is None:
+                        self._aligned = with_possible_turns(self._aligned)
             finer = None if sizes is None else refined_sizes(sizes, prepared.refinement)
             solution = yield from _integrated(self._aligned, problem, finer, seconds)
             self._sizes = sizes if problem.method == "anisotropic" else self._sizes
@@ -234,8 +236,8 @@ def _solution(
     with _timed(seconds, "verdict"):
         inverted = None if mapped is None else len(mapped.map.inverted)
         wound = 0 if mapped is None else len(mapped.map.wrong_windings)
-        turns = None if integrated is None else holonomy_class(integrated.aligned)
-        verdict = judge(field, inverted, limits, wrong_windings=wound, turns=turns)
+        known = None if integrated is None else field_existence(integrated.aligned)
+        verdict = judge(field, inverted, limits, wrong_windings=wound, known=known)
     return Solution(
         problem,
         prepared,

@@ -15,6 +15,7 @@ from solvers.fields.natural import (
     CrossesStep,
     natural_singularities,
 )
+from solvers.fields.pieces import field_existence
 from solvers.fields.placement import MOST_VALENCE
 from solvers.fields.prepared import Operators, PreparedSurface, prepare
 from solvers.fields.sizes import size_map
@@ -45,6 +46,7 @@ __all__ = [
     "aligned_field",
     "alternating_field",
     "anisotropic_field",
+    "field_existence",
     "holonomy_class",
     "judge",
     "natural_singularities",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -14,8 +13,8 @@ from solvers.fields.crossfield import CrossField
 from solvers.fields.holonomy import Holonomy
 from solvers.number_checks import real_number, whole_number
 from solvers.remedies import ANISOTROPIC, MAKE_VALID, Remedy, in_words
+from solvers.singularities.decision import Existence, existence
 from solvers.singularities.theorems import Theorem
-from solvers.singularities.topology import existence
 from solvers.surface.triangulation import BoolArray, FloatArray
 
 TOLERANCE_DEGREES = 0.01
@@ -145,7 +144,7 @@ def judge(
     limits: Limits = STRICT,
     *,
     wrong_windings: int = 0,
-    turns: Sequence[int] | None = None,
+    known: Existence | None = None,
 ) -> Verdict:
     """Judge a field by topology, closing, alignment, integrability, its map and its aspect.
 
@@ -159,8 +158,8 @@ def judge(
         What is valid.
     wrong_windings : int, optional
         Vertices of the map around which the angles of the images do not add up to their quads.
-    turns : sequence of int, optional
-        Quarter turns of the field, as of `holonomy_class`.
+    known : Existence, optional
+        What topology says, as of `field_existence`; by default of valences and corners alone.
 
     Returns
     -------
@@ -193,7 +192,8 @@ def judge(
     if inverted is not None:
         inverted = whole_number("the number of inverted triangles", inverted, 0)
     wrong_windings = whole_number("the number of wrong windings", wrong_windings, 0)
-    known = existence(field.surface, field.singularities, field.corners, turns)
+    if known is None:
+        known = existence(field.surface, field.singularities, field.corners)
     if known.theorem is not None:
         reason, theorem = str(known.theorem), known.theorem
         return Verdict("impossible", reason, known.remedies, refused=True, theorem=theorem)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from solvers.fields.aligned import IntegratedField
-from solvers.fields.turning import holonomy_class
+from solvers.fields.pieces import field_existence
 from solvers.fields.verdict import Verdict, judge
 from solvers.layouts.arrangement import Arrangement
 from solvers.layouts.drawing import LONGEST, Drawing
@@ -147,7 +147,7 @@ def quad_layout(
     (5, True)
     """
     if verdict is None:
-        verdict = judge(integrated.field, turns=holonomy_class(integrated.aligned))
+        verdict = judge(integrated.field, known=field_existence(integrated.aligned))
     if verdict.refused:
         raise LayoutError(verdict.reason.rstrip("."), remedies=verdict.remedies)
     yield Progress("fitting the seamless map", 0.0)

@@ -16,14 +16,19 @@ import numpy as np
 
 from solvers.fields.aligned import AlignedField, IntegratedField, aligned_field
 from solvers.fields.integrable import anisotropic_field
+from solvers.fields.pieces import field_existence
 from solvers.fields.verdict import EXTREME_ASPECT
 from solvers.maps.closed_images import SeamlessMap
 from solvers.maps.seamless import SeamlessFit
 from solvers.progress import Progress
+from solvers.singularities.decision import existence
 from solvers.surface.triangulation import QUARTER, FloatArray
 
 NEIGHBOURS = 4
 """Most turns that are tried besides the nearest. Chosen."""
+
+NEAR = 24
+"""Most turns of which topology is asked. Chosen: more than a field has to be off by."""
 
 DETOURS = (-1.0, -0.5, 0.5)
 """Parts of the harmonic correction by which other ways lead.
@@ -135,6 +140,8 @@ def unfolded(
             aligned = aligned_field(
                 start.prepared, turns, like=start.isotropic, without=start.without
             )
+            if field_existence(aligned).theorem is not None:
+                continue
         found = yield from anisotropic_field(aligned, sizes, detour=detour)
         if not found.convergence.converged:
             continue
@@ -144,6 +151,39 @@ def unfolded(
             if not best.folded:
                 break
     return best
+
+
+def with_possible_turns(first: AlignedField) -> AlignedField:
+    """Return an aligned field with the turns nearest to its own that topology does not forbid.
+
+    Parameters
+    ----------
+    first : AlignedField
+        The field by the turns nearest to the isotropic one.
+
+    Returns
+    -------
+    AlignedField
+        The first itself where its turns are possible, or none near by are.
+
+    Examples
+    --------
+    >>> from solvers.fields import aligned_field, holonomy_class, prepare
+    >>> from solvers.maps import with_possible_turns
+    >>> from solvers.primitives import torus
+    >>> turned = aligned_field(prepare(torus(n=12)), [1, 0])
+    >>> holonomy_class(with_possible_turns(turned))
+    (0, 0)
+    """
+    field = first.isotropic
+    anyhow = existence(field.surface, field.singularities, field.corners)
+    if field_existence(first).theorem is None or anyhow.theorem is not None:
+        return first
+    for turns in neighbouring_turns(first)[:NEAR]:
+        other = aligned_field(first.prepared, turns, like=first.isotropic, without=first.without)
+        if field_existence(other).theorem is None:
+            return other
+    return first
 
 
 def neighbouring_turns(aligned: AlignedField) -> list[tuple[int, ...]]:

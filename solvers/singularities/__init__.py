@@ -11,6 +11,7 @@ from solvers.singularities.budget import (
     index_budget,
     require_budget,
 )
+from solvers.singularities.decision import Existence, existence
 from solvers.singularities.farthest import far_points
 from solvers.singularities.pairs import merged, pair_at, split
 from solvers.singularities.places import require_places
@@ -27,7 +28,7 @@ from solvers.singularities.remedies import (
 )
 from solvers.singularities.symmetry import mirrored, rotated
 from solvers.singularities.theorems import Theorem
-from solvers.singularities.topology import Existence, decide, existence
+from solvers.singularities.topology import decide
 
 __all__ = [
     "AddMissing",

@@ -74,3 +74,31 @@ EMPTY_STRATUM = Theorem(
     "Masur and Smillie 1993",
 )
 """All holonomy of the double is in half turns, so it is a quadratic differential. From theory."""
+
+TORUS_TURNS = Theorem(
+    "Two singularities of a torus, of indices k and -k, are not possible where the turns around "
+    "the handles are all multiples of k: the two would be one point",
+    "Abel's theorem; for k = 2 Masur and Smillie 1993",
+)
+"""sum k_i z_i = 0 says k (z_1 - z_2) = 0; the turns tell the order of z_1 - z_2. From theory."""
+
+CLOSED_TURNS = Theorem(
+    "With only half turns around the handles of genus 2 there is neither a valence 12 alone nor "
+    "valences 6 and 10 alone: the strata Q(4) and Q(3, 1) are empty",
+    "Masur and Smillie 1993",
+)
+"""A field of half turns is a quadratic differential. From theory."""
+
+SPIN = Theorem(
+    "With whole turns around the handles of genus 2 a valence 12 alone has turns of odd spin only: "
+    "the stratum H(2) is connected",
+    "Kontsevich and Zorich 2003",
+)
+"""A field of whole turns is an abelian differential. From theory."""
+
+ONE_WAY = Theorem(
+    "With such turns the sides of the boundary do not close up: some run along a direction of the "
+    "crosses and none against it",
+    "Stokes' theorem",
+)
+"""Where all turns around closed loops are whole, u and v are closed 1-forms. From theory."""

@@ -7,63 +7,32 @@ order -k where the index is k. The question is whether there is one, of any shap
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
 from itertools import accumulate
+from math import gcd
 from typing import Literal
-
-import numpy as np
 
 from solvers.errors import SingularityError
 from solvers.number_checks import whole_number, whole_numbers
-from solvers.remedies import Remedy
-from solvers.singularities.budget import (
-    Singularity,
-    checked_corners,
-    checked_singularities,
-    index_budget,
-)
-from solvers.singularities.remedies import AddPair, ChangeCorners, ChangeTurns
 from solvers.singularities.theorems import (
     ANNULUS_TURNS,
     BUDGET,
+    CLOSED_TURNS,
     EMPTY_STRATUM,
     FLAT_ANNULUS,
     FLAT_TORUS,
+    ONE_WAY,
+    SPIN,
     TORUS_PAIR,
+    TORUS_TURNS,
     ZIGZAG,
     Theorem,
 )
-from solvers.surface.trisurface import TriSurface
 
 Answer = Literal["possible", "impossible", "undecided"]
 
-
-@dataclass(frozen=True)
-class Existence:
-    """Whether a quad mesh exists, by topology.
-
-    Parameters
-    ----------
-    answer : {"possible", "impossible", "undecided"}
-        "undecided" where no theorem is known either way.
-    theorem : Theorem, optional
-        What forbids it, where it is impossible.
-    remedies : tuple of Remedy, optional
-        What leads to the nearest configurations that are possible.
-
-    Examples
-    --------
-    >>> from solvers.primitives import torus
-    >>> from solvers.singularities import existence
-    >>> found = existence(torus(n=12), [], {}, turns=[0, 1])
-    >>> found.answer, [remedy.words for remedy in found.remedies]
-    ('impossible', ['change the turns by 0, -1'])
-    """
-
-    answer: Answer
-    theorem: Theorem | None = None
-    remedies: tuple[Remedy, ...] = ()
+FULL = 4
+"""Quarter turns of a full one. From theory."""
 
 
 def decide(
@@ -84,29 +53,35 @@ def decide(
     indices : iterable of int
         Of the singularities inside; zeros are regular.
     turns : sequence of int, optional
-        Quarter turns, counterclockwise, of the crosses against each handle loop, then against a
-        path to each further boundary, from a place before the first corner of the first boundary
-        to one before the first corner of the further one. By default any.
+        Quarter turns, counterclockwise, of the crosses against each of 2 ``genus`` handle loops,
+        two by two crossing each other once and no other, then against a path to each further
+        boundary, from a place before the first corner of the first boundary to one before the
+        first corner of the further one. By default any.
 
     Returns
     -------
     answer : {"possible", "impossible", "undecided"}
-        "undecided" only where turns are given.
+        "undecided" only where turns are given, on surfaces with boundary that are no disk and no
+        annulus.
     theorem : Theorem or None
         What forbids it.
 
     Raises
     ------
     SingularityError
-        An index is none of a point inside, or of a corner.
+        An index is none of a point inside, or of a corner, or the turns are too few or too many.
 
     Notes
     -----
     Spheres and disks have no holonomy, so that the budget is enough: the quartic differential
     prod (z - z_i)^-k_i dz^4 is there, at any places. On a torus Abel's theorem asks that
-    sum k_i z_i is a period, which distinct points can meet unless the indices are 1 and -1. On
-    closed surfaces of higher genus no stratum of quartic differentials with such orders is empty
-    (Jucovic and Trenkler 1973 for valences from 3; Gendron and Tahar 2022 in general).
+    sum k_i z_i is a period, the greatest common divisor of the k_i times a torsion point whose
+    order the turns tell; two points that do not differ have none. On closed surfaces of
+    higher genus no stratum of quartic differentials with such orders is empty (Jucovic and
+    Trenkler 1973 for valences from 3; Gendron and Tahar 2022 in general). With turns: what counts
+    is whether they and the indices are all whole (abelian differentials), half (quadratic) or
+    only quarter turns, and on surfaces of whole turns the Arf invariant. The empty ones are of
+    genus 2: of half turns Q(4) and Q(3, 1), of whole ones H(2) with an even spin structure.
 
     An annulus is conformally a cylinder. Let T(phi) be the turns along the path across it at the
     angle phi, whole numbers that jump by k where a singularity or a corner is passed. Integrating
@@ -117,7 +92,13 @@ def decide(
 
     Surfaces with more boundaries or with handles: the indices are doubled and the double is a
     closed surface, of genus 2 at least. All small square-tiled surfaces were enumerated; the only
-    budget without any is that whose double has the orders 6 and 2 and quadratic holonomy.
+    budget without any is that whose double has the orders 6 and 2 and quadratic holonomy. With
+    turns, boundaries that bound a polygon cut out of a surface may be left out. What counts of the
+    others is the greatest common divisor of the turns around closed loops (of genus 1, else with
+    4). All small classes where it is 1, or where planar ones have singularities, were found; of
+    others some were not. Where all turns around closed loops are whole, each side of the boundary
+    has one of four directions, and by Stokes' theorem the displacements along all sides sum to
+    zero.
 
     Examples
     --------
@@ -129,14 +110,13 @@ def decide(
     ('impossible', 'possible')
     >>> decide(0, [[1, 1, -1, -1], []], [], turns=[1])[0]
     'impossible'
+    >>> [decide(1, [], [2, -2], turns)[0] for turns in ([0, 2], [0, 1])]
+    ['impossible', 'possible']
     """
     inside = sorted(_checked("a singularity", indices, 3))
     loops = [_checked("a corner", loop, 1) for loop in boundaries]
-    given = None
-    if turns is not None:
-        given = whole_numbers("turns", turns, (None,), error=SingularityError).tolist()
-    budget = 4 * (2 - 2 * genus - len(loops))
-    if sum(inside) + sum(map(sum, loops)) != budget:
+    given = None if turns is None else _checked_turns(turns, genus, len(loops))
+    if sum(inside) + sum(map(sum, loops)) != FULL * (2 - 2 * genus - len(loops)):
         return "impossible", BUDGET
     match genus, len(loops):
         case 0, 0 | 1:
@@ -145,10 +125,11 @@ def decide(
             return _on_torus(inside, given)
         case 0, 2:
             return _on_annulus(loops, inside, given)
-        case 0, 3 if not inside and sorted(map(sorted, loops)) == [[], [], [-3, -1]]:
-            return "impossible", EMPTY_STRATUM
+        case _, 0:
+            theorem = None if given is None else _closed(genus, inside, given)
+            return ("possible" if theorem is None else "impossible"), theorem
         case _:
-            return ("possible" if given is None else "undecided"), None
+            return _bounded(genus, loops, inside, given)
 
 
 def _checked(of: str, indices: Iterable[int], most: int) -> list[int]:
@@ -159,102 +140,95 @@ def _checked(of: str, indices: Iterable[int], most: int) -> list[int]:
     return [k for k in whole if k]
 
 
+def _checked_turns(turns: Sequence[int], genus: int, n_boundaries: int) -> list[int]:
+    wanted = 2 * genus + max(n_boundaries - 1, 0)
+    given = whole_numbers("the turns", turns, (wanted,), error=SingularityError)
+    return [int(n) for n in given]
+
+
 def _on_torus(inside: Sequence[int], turns: Sequence[int] | None) -> tuple[Answer, Theorem | None]:
-    if not inside and any(turns or ()):
-        return "impossible", FLAT_TORUS
+    if not inside:
+        return ("impossible", FLAT_TORUS) if any(turns or ()) else ("possible", None)
     if inside == [-1, 1]:
         return "impossible", TORUS_PAIR
-    # Two points of indices k and -k differ by a period over k, which must be no period itself.
-    return ("possible" if turns is None or len(inside) != 2 else "undecided"), None
+    if turns is not None and len(inside) == 2 and gcd(*inside, *turns) == inside[1]:
+        return "impossible", TORUS_TURNS
+    return "possible", None
+
+
+def _closed(genus: int, inside: Sequence[int], turns: Sequence[int]) -> Theorem | None:
+    """Return what forbids the turns on a closed surface of genus 2 at least."""
+    if genus != 2:
+        return None
+    part = gcd(FULL, *inside, *turns)
+    if part == 2 and inside in ([-8], [-6, -2]):
+        return CLOSED_TURNS
+    return SPIN if part == FULL and inside == [-8] and not _arf(turns) else None
+
+
+def _arf(turns: Sequence[int]) -> int:
+    """Return the Arf invariant of whole turns around pairs of loops (Johnson 1980)."""
+    odd = [(n // FULL + 1) % 2 for n in turns]
+    return sum(a * b for a, b in zip(odd[::2], odd[1::2], strict=True)) % 2
 
 
 def _on_annulus(
     loops: Sequence[Sequence[int]], inside: Sequence[int], turns: Sequence[int] | None
 ) -> tuple[Answer, Theorem | None]:
-    sums = _sums(loops)
-    if inside or sums[0][-1]:  # one singularity, or boundary, turned about the axis: any mean
+    if inside or sum(loops[0]):  # one singularity, or boundary, turned about the axis: any mean
         return "possible", None
     if not any(loops):
         return ("impossible", FLAT_ANNULUS) if any(turns or ()) else ("possible", None)
-    low, high = _span(sums)
+    first, second = ([0, *accumulate(loop)] for loop in loops)
+    low, high = min(second) - max(first), max(second) - min(first)
     if high - low < 2:
         return "impossible", ZIGZAG
-    if turns is None or low < turns[-1] < high:
+    if turns is None or low < turns[0] < high:
         return "possible", None
     return "impossible", ANNULUS_TURNS
 
 
-def _sums(loops: Sequence[Sequence[int]]) -> list[list[int]]:
-    """Return the sums of the corners passed on each boundary, from none on."""
-    return [[0, *accumulate(loop)] for loop in loops]
+def _bounded(
+    genus: int,
+    loops: Sequence[Sequence[int]],
+    inside: Sequence[int],
+    turns: Sequence[int] | None,
+) -> tuple[Answer, Theorem | None]:
+    if genus == 0 and not inside and sorted(map(sorted, loops)) == [[], [], [-3, -1]]:
+        return "impossible", EMPTY_STRATUM
+    if turns is None:
+        return "possible", None
+    around, across = turns[: 2 * genus], turns[2 * genus :]
+    if _cut_out(genus, loops, inside, around, across):
+        return "possible", None
+    # A loop that is moved over a singularity, or a boundary, turns by its index more, or less.
+    part = gcd(*inside, *(sum(loop) + FULL for loop in loops), *around)
+    part = part if genus == 1 else gcd(FULL, part)
+    if part == 1 or (genus == 0 and inside and part < FULL):
+        return "possible", None
+    if part % FULL:
+        return "undecided", None
+    directions: set[int] = set()
+    for loop, first in zip(loops, [0, *(2 - n for n in across)], strict=True):
+        directions.update(n % FULL for n in accumulate(loop, initial=first))
+    if any((n in directions) != ((n + 2) % FULL in directions) for n in (0, 1)):
+        return "impossible", ONE_WAY
+    return "undecided", None
 
 
-def _span(sums: Sequence[Sequence[int]]) -> tuple[int, int]:
-    """Return between which numbers the turns from the one boundary to the other must be."""
-    return min(sums[1]) - max(sums[0]), max(sums[1]) - min(sums[0])
-
-
-def existence(
-    surface: TriSurface,
-    singularities: Iterable[Singularity],
-    corners: Mapping[int, int],
-    turns: Sequence[int] | None = None,
-) -> Existence:
-    """Decide whether any surface of this topology has quads with such singularities and corners.
-
-    Parameters
-    ----------
-    surface : TriSurface
-        The surface.
-    singularities : iterable of Singularity
-        The singularities inside, wherever they are.
-    corners : mapping of int to int
-        Index of the corners, by boundary vertex.
-    turns : sequence of int, optional
-        As of `decide`, from behind the first vertex of each boundary loop; they count where there
-        are no singularities. Where there are no corners either, they are those over each holonomy
-        condition besides those nearest to the isotropic field.
-
-    Returns
-    -------
-    Existence
-        The answer, why, and the nearest configurations that are possible.
-
-    Raises
-    ------
-    SingularityError
-        If a singularity or a corner is something else.
-
-    Examples
-    --------
-    >>> from solvers.primitives import torus
-    >>> from solvers.singularities import Singularity, existence
-    >>> surface = torus(n=12)
-    >>> pair = [Singularity(surface.point_at_vertex(v), n) for v, n in ((0, 3), (40, 5))]
-    >>> found = existence(surface, pair, {})
-    >>> found.answer, [remedy.words for remedy in found.remedies]
-    ('impossible', ['add a pair of valences 3 and 5'])
-    >>> existence(surface, [], {}, turns=[1, 0]).remedies[0].by
-    (-1, 0)
-    """
-    placed = checked_singularities(singularities)
-    turning = {vertex: k for vertex, k in checked_corners(surface, corners).items() if k}
-    indices = [s.index for s in placed if s.index]
-    index = np.zeros(surface.n_vertices, dtype=np.int64)
-    index[list(turning)] = list(turning.values())
-    around = [np.roll(index[loop], -1) for loop in surface.boundary_loops]
-    loops = [along[along != 0].tolist() for along in around]
-    answer, theorem = decide(surface.genus, loops, indices, None if indices else turns)
-    remedies: tuple[Remedy, ...] = ()
-    if theorem is BUDGET:
-        remedies = index_budget(surface, placed, turning).remedies
-    elif theorem is FLAT_TORUS or theorem is FLAT_ANNULUS:
-        remedies = (ChangeTurns.of(-n for n in turns or ()),)
-    elif theorem is ANNULUS_TURNS and turns:
-        low, high = _span(_sums(loops))
-        remedies = (ChangeTurns.of([min(max(turns[0], low + 1), high - 1) - turns[0]]), AddPair())
-    elif theorem is ZIGZAG:
-        remedies = (AddPair(), ChangeCorners.none_of(turning))
-    elif theorem is not None:
-        remedies = (AddPair(),)
-    return Existence(answer, theorem, remedies)
+def _cut_out(
+    genus: int,
+    loops: Sequence[Sequence[int]],
+    inside: Sequence[int],
+    around: Sequence[int],
+    across: Sequence[int],
+) -> bool:
+    """Return whether it is known to be possible without those holes that bound a polygon."""
+    hole = [sum(loop) == -FULL and min(loop) >= -2 for loop in loops]
+    if all(hole):
+        return decide(genus, [], inside, around)[0] == "possible"
+    if hole[0] or not any(hole):
+        return False
+    kept = [i for i, cut in enumerate(hole) if not cut]
+    turns = [*around, *(across[i - 1] for i in kept[1:])]
+    return decide(genus, [loops[i] for i in kept], inside, turns)[0] == "possible"

@@ -21,10 +21,10 @@ from solvers.fields.isotropic import IsotropicSolver
 from solvers.progress import Progress, relayed
 from solvers.remedies import ANISOTROPIC, Remedy
 from solvers.singularities.budget import Singularity, checked_singularities, require_budget
+from solvers.singularities.decision import existence
 from solvers.singularities.farthest import far_points
 from solvers.singularities.pairs import pair_at
 from solvers.singularities.theorems import Theorem
-from solvers.singularities.topology import existence
 from solvers.surface.refinement import LEVELS
 from solvers.surface.triangulation import QUARTER, FloatArray
 from solvers.surface.trisurface import TriSurface

@@ -169,7 +169,7 @@ class ValidityPanel(QWidget):
             return
         self._show_budget(new)
         if old is None or _offers(old) != _offers(new):
-            self._show_offers(mendings(new.document) if _offers(new) and new.document else ())
+            self._show_offers(_offered(new))
         self._show_conditions(new)
 
     def _show_budget(self, state: SessionState) -> None:
@@ -253,11 +253,21 @@ class ValidityPanel(QWidget):
         self._scroll.setMaximumHeight(self._list.sizeHint().height())
 
 
-def _offers(state: SessionState) -> int | None:
+def _offers(state: SessionState) -> tuple[int, int] | None:
     """Return what the remedies offered depend on; None: what the mouse carries is one itself."""
     trial, budget = state.trial, state.budget
     placing = trial is not None and not trial.drag and budget is not None and budget.satisfied
-    return None if placing else id(state.document)
+    return None if placing else (id(state.document), id(state.solution) if state.solved else 0)
+
+
+def _offered(state: SessionState) -> tuple[Remedy, ...]:
+    """Return what may be done; where the budget is met, about what the solution is known of."""
+    if state.document is None or _offers(state) is None:
+        return ()
+    known = state.existence
+    if known is None or not state.document.budget.satisfied:
+        return mendings(state.document)
+    return known.remedies
 
 
 def _button(action: QAction) -> QPushButton:

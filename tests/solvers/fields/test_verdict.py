@@ -9,6 +9,7 @@ import pytest
 from solvers.fields.aligned import AlignedField, IntegratedField, aligned_field
 from solvers.fields.crossfield import CrossField
 from solvers.fields.integrable import anisotropic_field
+from solvers.fields.pieces import field_existence
 from solvers.fields.prepared import prepare
 from solvers.fields.verdict import NEARLY_INTEGRABLE, Limits, judge
 from solvers.layouts.errors import LayoutError
@@ -179,14 +180,14 @@ def test_what_topology_forbids_is_impossible_whatever_the_field_is_like() -> Non
     ):
         aligned = aligned_field(prepare(surface, ()), turns)
         forced = IntegratedField(aligned, aligned.start).field
-        verdict = judge(forced, 0, turns=turns)
+        verdict = judge(forced, 0, known=field_existence(aligned))
         assert (verdict.status, verdict.refused) == ("impossible", True)
         assert verdict.theorem is theorem
         (remedy,) = (r for r in verdict.remedies if isinstance(r, ChangeTurns))
         turned = [a + b for a, b in zip(turns, remedy.by, strict=True)]
         back = aligned_field(prepare(surface, ()), turned)
         found = IntegratedField(back, back.start).field
-        assert judge(found, 0, turns=turned).status == "valid"
+        assert judge(found, 0, known=field_existence(back)).status == "valid"
         with pytest.raises(LayoutError, match="without singularities the crosses"):
             run(quad_layout(IntegratedField(aligned, aligned.start)))
 

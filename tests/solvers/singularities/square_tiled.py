@@ -70,6 +70,42 @@ class SquareTiled:
         corners = [[k for _, k in loop if k] for loop in loops]
         return (2 - len(loops) - characteristic) // 2, corners, [k for k in indices if k]
 
+    def handles(self) -> list[list[int]]:
+        """Closed paths of squares, each the sides it leaves by, that together go around handles."""
+        before: dict[int, list[int]] = {0: []}
+        waiting, loops = [0], []
+        for square in waiting:
+            for side in range(4 * square, 4 * square + 4):
+                neighbour = self.partner[side] // 4
+                if neighbour not in before:
+                    before[neighbour] = [*before[square], side]
+                    waiting.append(neighbour)
+        for side, other in enumerate(self.partner):
+            out, back = before[side // 4], before[other // 4]
+            if side < other and side not in back and other not in out:
+                shared = sum(a == b for a, b in zip(out, back, strict=False))
+                loops.append([*out[shared:], side, *(self.partner[s] for s in back[shared:][::-1])])
+        crossings = [[self.crossings(one, other) for other in loops] for one in loops]
+        return [loop for loop, row in zip(loops, crossings, strict=True) if any(row)]
+
+    def turns_around(self, loop: list[int]) -> int:
+        """Turns of the squares' axes against a closed path."""
+        entered = [self.partner[side] for side in loop[-1:] + loop[:-1]]
+        return sum(2 - (left - came) % 4 for came, left in zip(entered, loop, strict=True))
+
+    def crossings(self, one: list[int], other: list[int]) -> int:
+        """How often a closed path crosses another from its right to its left, less back."""
+        crossed = [0] * len(self.partner)
+        for side in other:
+            crossed[side] += 1
+            crossed[self.partner[side]] -= 1
+        total = 0
+        for came, left in zip([self.partner[s] for s in one[-1:] + one[:-1]], one, strict=True):
+            corner = came // 4 * 4
+            total += sum(crossed[corner + (came + n) % 4] for n in range((left - came) % 4))
+            total += crossed[left]
+        return total
+
     def turning(self, start: int, end: int) -> int:
         """Turns of the squares' axes against a shortest path from one free side to another."""
         before = {start // 4: (start, 0)}
