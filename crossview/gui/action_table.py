@@ -233,7 +233,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "redo", enabled=lambda s: s.redo_name is not None,
     ),
     ActionSpec(
-        "copy-script", "Copy as Python", "Edit", lambda w: w.copy_script(),
+        "copy-script", "Copy as Python", "Edit", lambda w: w.help.copy_script(),
         tip="A script that solves what is open and makes the quads shown", enabled=_open,
         separated=True,
     ),
@@ -241,6 +241,10 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "select-all", "Select all", "Edit", lambda w: w.session.pointer.select_all(),
         ("Ctrl+A",), tip="Select every singularity; Ctrl and a click adds one or takes one away",
         enabled=_placed, separated=True,
+    ),
+    ActionSpec(
+        "preferences", "Preferences…", "Edit", lambda w: w.appearance.show_dialog(), ("Ctrl+,",),
+        tip="Theme, shading, copies of unsaved work, how many quads at first", separated=True,
     ),
     ActionSpec(
         "use-largest", "Use the largest piece", "Surface", lambda w: w.files.reopen("largest"),
@@ -404,15 +408,15 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "search", "Find any action by name",
     ),
     ActionSpec(
-        "keys", "Keys", "Help", lambda w: w.show_keys(), ("F1",),
+        "keys", "Keys", "Help", lambda w: w.help.show_keys(), ("F1",),
         tip="List all keys", separated=True,
     ),
     ActionSpec(
-        "diagnostics", "Copy diagnostics", "Help", lambda w: w.copy_diagnostics(),
+        "diagnostics", "Copy diagnostics", "Help", lambda w: w.help.copy_diagnostics(),
         tip="Versions, machine, what is open and the message, for a report of trouble",
     ),
     ActionSpec(
-        "about", "About crossview", "Help", lambda w: w.show_about(), separated=True,
+        "about", "About crossview", "Help", lambda w: w.help.show_about(), separated=True,
     ),
 )  # fmt: skip
 """All actions: menus, toolbar, keys and palette are made from these."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from PySide6.QtGui import QAction, QIcon, QKeySequence
 from PySide6.QtWidgets import QWidget
 
-from crossview.gui.icons import icon, valence_icon
+from crossview.gui.icons import put_icon, valence_icon
 from crossview.gui.window_verbs import WindowVerbs
 from crossview.session.state import SessionState
 
@@ -94,8 +94,10 @@ class Actions:
         action.setCheckable(spec.checked is not None)
         keys = f" ({spec.keys[0]})" if spec.keys else ""
         action.setToolTip(f"{spec.text.rstrip('…')}{keys}\n{spec.tip}".rstrip())
-        if spec.icon:
-            action.setIcon(action_icon(spec.icon))
+        if ":" in spec.icon:
+            action.setIcon(_valence_disk(spec.icon))
+        elif spec.icon:
+            put_icon(action, spec.icon)
         # the action's own state follows the window's, never the other way round
         action.triggered.connect(lambda: self._run(spec))
         parent.addAction(action)
@@ -106,11 +108,9 @@ class Actions:
         self.show(self._verbs.session.state)
 
 
-def action_icon(name: str) -> QIcon:
-    """Return a drawn icon, or a valence's disk for names such as "valence:3"."""
-    kind, _, valence = name.partition(":")
-    if kind != "valence":
-        return icon(name)
+def _valence_disk(name: str) -> QIcon:
+    """Return a valence's disk for a name such as "valence:3"."""
+    valence = name.partition(":")[2]
     return valence_icon(None, "n") if valence == "n" else valence_icon(int(valence))
 
 

@@ -11,6 +11,9 @@ from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QTabWidget, QWid
 LEFT, RIGHT = Qt.DockWidgetArea.LeftDockWidgetArea, Qt.DockWidgetArea.RightDockWidgetArea
 """Where panels are docked."""
 
+BOTTOM = Qt.DockWidgetArea.BottomDockWidgetArea
+"""Where those are that are hidden at first."""
+
 LEFT_WIDTH, RIGHT_WIDTH = 316, 232
 """Widths of both sides at first, in pixels. Chosen."""
 
@@ -20,6 +23,9 @@ LEFT_LEAST, RIGHT_LEAST = 272, 208
 LEFT_COLUMN = ("Surface", "Singularities", "Validity")
 """Panels on the left, from the top; the others are on the right."""
 
+HIDDEN = ("Log",)
+"""Panels that are at the bottom, once they are wanted."""
+
 TABS = ("Convergence", "Quads", "Export")
 """Docks that share one place, the first in front."""
 
@@ -28,7 +34,7 @@ def add_docks(window: QMainWindow, panels: Mapping[str, QWidget]) -> dict[str, Q
     """Stand panels, given by title from the top left down, in docks; return these by title."""
     docks = {}
     for title, panel in panels.items():
-        area = LEFT if title in LEFT_COLUMN else RIGHT
+        area = BOTTOM if title in HIDDEN else LEFT if title in LEFT_COLUMN else RIGHT
         dock = QDockWidget(title, window)
         dock.setObjectName(title)
         panel.setAutoFillBackground(True)
@@ -37,6 +43,7 @@ def add_docks(window: QMainWindow, panels: Mapping[str, QWidget]) -> dict[str, Q
         dock.setWidget(panel)
         dock.setTitleBarWidget(QWidget() if title in TABS else _title_bar(title))
         window.addDockWidget(area, dock)
+        dock.setVisible(title not in HIDDEN)
         docks[title] = dock
     window.setTabPosition(RIGHT, QTabWidget.TabPosition.North)
     for title, following in pairwise(TABS):

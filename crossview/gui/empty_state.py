@@ -7,7 +7,7 @@ from PySide6.QtGui import QIcon, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QToolButton, QVBoxLayout, QWidget
 
 from crossview.gui.gallery import thumbnail
-from crossview.gui.icons import icon
+from crossview.gui.icons import put_icon
 
 THUMBNAIL, SMALLEST = 208, 120
 """Width of a picture, in pixels, at most and at least. Chosen."""
@@ -35,14 +35,15 @@ class EmptyState(QWidget):
         self.setAutoFillBackground(True)
         self.setBackgroundRole(self.palette().ColorRole.Base)
         drop = QLabel()
-        drop.setPixmap(icon("drop").pixmap(QSize(40, 40)))
+        put_icon(drop, "drop")
         title = QLabel("Drop a surface here, or start from a gallery case")
         font = title.font()
         font.setPointSizeF(font.pointSizeF() * 1.5)
         title.setFont(font)
         formats = QLabel("OBJ, PLY, STL, OFF, VTK, VTP, GLTF, GLB, MSH, or a project or case")
         formats.setForegroundRole(self.palette().ColorRole.PlaceholderText)
-        browse = QPushButton(icon("open"), "Open a file…")
+        browse = QPushButton("Open a file…")
+        put_icon(browse, "open")
         browse.clicked.connect(self.open_wanted)
         self.thumbnails = [self._thumbnail(name, text) for name, text in FEATURED]
         row = QHBoxLayout()

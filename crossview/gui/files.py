@@ -74,6 +74,7 @@ class Files:
         self._recovery = Recovery()
         self._restored: Unsaved | None = None
         self._inverted_too = False
+        self._copies = True
         session.may_leave = self.may_leave
 
     @property
@@ -208,9 +209,14 @@ class Files:
             made, allowed = state.made.quads, self._inverted_too
             self._write(partial(write_mesh, made, kept=kept, allow_inverted=allowed), path)
 
+    def keep_copies(self, kept: bool) -> None:
+        """Whether a copy of unsaved work is kept after each step."""
+        self._copies = kept
+        self._session.attempt("copy", self._keep_copy)
+
     def _keep_copy(self) -> None:
         state = self._session.state
-        if state.document is not None and state.modified:
+        if self._copies and state.document is not None and state.modified:
             self._recovery.keep(state.document, self._source)
         else:
             self._recovery.clear()

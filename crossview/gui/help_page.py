@@ -7,12 +7,26 @@ import platform
 from collections.abc import Mapping
 
 import PySide6
-from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QDialog, QDialogButtonBox, QTextBrowser, QVBoxLayout, QWidget
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QAction, QGuiApplication
+from PySide6.QtWidgets import (
+    QDialog,
+    QDialogButtonBox,
+    QMessageBox,
+    QTextBrowser,
+    QVBoxLayout,
+    QWidget,
+)
 from vtkmodules.vtkCommonCore import vtkVersion
 
 import crossview
+from crossview.session.log import Log
+from crossview.session.script import script
+from crossview.session.session import Session
 from crossview.session.state import SessionState
+
+LAST = 30
+"""Lines of the log that a report of trouble tells. Chosen."""
 
 
 class KeysPage(QDialog):
@@ -42,13 +56,71 @@ def _table(menu: str, actions: list[QAction]) -> str:
     return f"<h3>{menu}</h3><table cellpadding=2>{rows}</table>" if rows else ""
 
 
+class Help:
+    """Keys, what this is, and what a report of trouble should tell.
+
+    Parameters
+    ----------
+    session : Session
+    log : Log
+    actions : mapping of str to list of QAction
+        By menu.
+    parent : QWidget
+        What dialogs stand over.
+    """
+
+    def __init__(
+        self,
+        session: Session,
+        log: Log,
+        actions: Mapping[str, list[QAction]],
+        parent: QWidget,
+    ) -> None:
+        self._session = session
+        self._log = log
+        self._actions = actions
+        self._parent = parent
+
+    def show_keys(self) -> None:
+        """List all keys."""
+        page = KeysPage(self._actions, self._parent)
+        page.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        page.show()
+
+    def show_about(self) -> None:
+        """Say what this is."""
+        versions = "<br>".join(_versions())
+        QMessageBox.about(
+            self._parent,
+            "About crossview",
+            f"<b>crossview {crossview.__version__}</b><p>Imposed singularities on a surface, "
+            "and the boundary-aligned cross-field they give.</p>"
+            f"<p>{versions}</p><p>BSD-3-Clause</p>",
+        )
+
+    def copy_script(self) -> None:
+        """Put a Python script of what was done into the clipboard."""
+        QGuiApplication.clipboard().setText(script(self._session.state))
+
+    def copy_diagnostics(self) -> None:
+        """Put versions, machine, what is open, the message and the last of the log there."""
+        last = [str(entry) for entry in self._log.entries][-LAST:]
+        QGuiApplication.clipboard().setText("\n".join([diagnostics(self._session.state), *last]))
+
+
+def _versions() -> list[str]:
+    return [
+        f"Python {platform.python_version()}, PySide6 {PySide6.__version__}, "
+        f"VTK {vtkVersion().GetVTKVersion()}",
+        platform.platform(),
+    ]
+
+
 def diagnostics(state: SessionState) -> str:
     """Return versions, the machine, what is open and what the message says, a line each."""
     lines = [
         f"crossview {crossview.__version__}",
-        f"Python {platform.python_version()}, PySide6 {PySide6.__version__}, "
-        f"VTK {vtkVersion().GetVTKVersion()}",
-        platform.platform(),
+        *_versions(),
     ]
     if state.document is not None:
         surface = state.document.surface

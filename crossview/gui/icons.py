@@ -6,15 +6,22 @@ from collections.abc import Callable
 from functools import cache
 from importlib.resources import files
 
-from PySide6.QtCore import QByteArray, QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QIcon, QPainter, QPalette, QPen, QPixmap
+from PySide6.QtCore import QByteArray, QObject, QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QAction, QColor, QIcon, QPainter, QPalette, QPen, QPixmap
 from PySide6.QtSvg import QSvgRenderer
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel
 
 from crossview.view.colors import BAD, GOOD, UNSURE, WAITING, valence_color
 
 SIZES = (14, 16, 20, 28, 32, 40)
 """Sizes that an icon is drawn in, in pixels: of verdicts, menus, toolbars; and twice as fine."""
+
+
+LARGE = QSize(40, 40)
+"""Of an icon that stands by itself, in pixels. Chosen."""
+
+NAME = "icon-name"
+"""Property that holds the name of an icon."""
 
 
 def icon(name: str) -> QIcon:
@@ -23,6 +30,23 @@ def icon(name: str) -> QIcon:
     text = palette.color(QPalette.ColorRole.ButtonText).name()
     disabled = palette.color(QPalette.ColorGroup.Disabled, QPalette.ColorRole.ButtonText).name()
     return _icon(name, text, disabled)
+
+
+def put_icon(target: QAction | QAbstractButton | QLabel, name: str) -> None:
+    """Give an action, a button or a label the icon `name`, which `renew_icons` knows."""
+    target.setProperty(NAME, name)
+    if isinstance(target, QLabel):
+        target.setPixmap(icon(name).pixmap(LARGE))
+    else:
+        target.setIcon(icon(name))
+
+
+def renew_icons(root: QObject) -> None:
+    """Draw the icons of all below `root` in the colours of a theme that has changed."""
+    for target in root.findChildren(QObject):
+        name = target.property(NAME)
+        if name and isinstance(target, QAction | QAbstractButton | QLabel):
+            put_icon(target, name)
 
 
 def colored_icon(name: str, color: str) -> QIcon:

@@ -12,20 +12,20 @@ from PySide6.QtGui import (
     QGuiApplication,
     QShowEvent,
 )
-from PySide6.QtWidgets import QMainWindow, QMessageBox
+from PySide6.QtWidgets import QMainWindow
 
-import crossview
 from crossview.cases.pictured import FIGURES, Pictured
 from crossview.cases.project import PROJECT
 from crossview.gui.action_table import ACTIONS
 from crossview.gui.actions import Actions
+from crossview.gui.appearance import Appearance
 from crossview.gui.centre import Centre
 from crossview.gui.docks import add_docks
 from crossview.gui.figure import Figure
 from crossview.gui.figure_preview import FigurePreview
 from crossview.gui.files import Files
 from crossview.gui.gallery import Gallery
-from crossview.gui.help_page import KeysPage, diagnostics
+from crossview.gui.help_page import Help
 from crossview.gui.menus import MENUS, Menus
 from crossview.gui.method_box import MethodBox
 from crossview.gui.mouse import Mouse
@@ -34,6 +34,7 @@ from crossview.gui.panels import (
     ConvergencePanel,
     ExportPanel,
     LayersPanel,
+    LogPanel,
     QuadsPanel,
     SingularitiesPanel,
     SurfacePanel,
@@ -42,15 +43,16 @@ from crossview.gui.panels import (
 from crossview.gui.qt_loop import QtLoop
 from crossview.gui.solve_button import SolveButton
 from crossview.gui.status import Status
+from crossview.gui.theme import is_dark
 from crossview.gui.toolbar import fill_toolbar
 from crossview.gui.valence_box import ValenceBox
 from crossview.gui.viewport import Viewport
 from crossview.gui.window_geometry import WindowGeometry
 from crossview.scene.camera import read_camera
+from crossview.session.log import Log
 from crossview.session.look import Look
 from crossview.session.opening import Opening
 from crossview.session.pictures import figure_view
-from crossview.session.script import script
 from crossview.session.session import Session
 from crossview.session.state import SessionState
 
@@ -61,13 +63,17 @@ class MainWindow(QMainWindow):
     def __init__(self) -> None:
         super().__init__()
         self.setWindowTitle("crossview")
+        self.appearance = Appearance(self)
         # Never larger than the screen, whose edge would hide the docks on the right.
         self.resize(QSize(1440, 900).boundedTo(self.screen().availableSize()))
         self.setAcceptDrops(True)
         self.session: Session = Session(QtLoop(self))
         self.files: Files = Files(self.session, self.figure, self.look, self, self.statusBar())
+        self.log = Log(self.session)
         self.actions_table = Actions(ACTIONS, self, self)
         named = self.actions_table.by_name
+        by_menu = {title: [named[s.name] for s in ACTIONS if s.menu == title] for title in MENUS}
+        self.help = Help(self.session, self.log, by_menu, self)
         self.centre: Centre = Centre(self.session)
         self.setCentralWidget(self.centre)
         self.viewport: Viewport = self.centre.viewport
@@ -91,6 +97,7 @@ class MainWindow(QMainWindow):
                 "Convergence": self.convergence_panel,
                 "Quads": self.quads_panel,
                 "Export": self.export_panel,
+                "Log": LogPanel(self.log),
             },
         )
         shown = [dock.toggleViewAction() for dock in self.docks.values()]
@@ -108,11 +115,21 @@ class MainWindow(QMainWindow):
         self.window_geometry: WindowGeometry = WindowGeometry(self, self.docks)
         self._connect()
         self.actions_table.show(self.state)
+        self.appearance.prefer(self.appearance.preferences)
 
     def _connect(self) -> None:
         """Let the parts hear each other."""
         self.session.observers.append(self._show_state)
         self.session.opened.append(self._opened)
+        self.appearance.preferred += [
+            lambda chosen: self.session.looks.shade(chosen.shaded),
+            lambda chosen: self.files.keep_copies(chosen.copies),
+            lambda chosen: self.quads_panel.count_box.setValue(chosen.quads),
+        ]
+        self.appearance.themed += [
+            lambda: self.layers_panel.show_state(None, self.state),
+            lambda: self.session.looks.set_dark(is_dark()),
+        ]
         self.mouse.menu_wanted.connect(self._show_menu)
         self.mouse.edit_wanted.connect(self.edit_valence)
         self.mouse.hovered.connect(self.status.show_hover)
@@ -163,30 +180,12 @@ class MainWindow(QMainWindow):
         text = QGuiApplication.clipboard().text()
         self.session.attempt("camera", lambda: self._look_from(text))
 
-    def copy_script(self) -> None:
-        """Put a Python script of what was done into the clipboard."""
-        QGuiApplication.clipboard().setText(script(self.state))
-
-    def copy_diagnostics(self) -> None:
-        """Put what a report of trouble should tell into the clipboard."""
-        QGuiApplication.clipboard().setText(diagnostics(self.state))
-
     def show_gallery(self) -> None:
         """Show the cases that come with crossview, to open one."""
         gallery = Gallery(self)
         gallery.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         gallery.chosen.connect(self.files.open)
         gallery.open()
-
-    def show_keys(self) -> None:
-        """List all keys."""
-        actions = {
-            title: [self.actions_table.by_name[s.name] for s in ACTIONS if s.menu == title]
-            for title in MENUS
-        }
-        page = KeysPage(actions, self)
-        page.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        page.show()
 
     def reset_docks(self) -> None:
         """Put all panels back to where they stand at first."""
@@ -205,15 +204,6 @@ class MainWindow(QMainWindow):
         """Add a pair where the mouse is, where the menu was asked for, or where there is room."""
         pick = self.mouse.under_menu or self.mouse.under_mouse
         self.session.pairs.add(None if pick is None else pick.point)
-
-    def show_about(self) -> None:
-        """Say what this is."""
-        QMessageBox.about(
-            self,
-            "About crossview",
-            f"<b>crossview {crossview.__version__}</b><p>Imposed singularities on a surface, "
-            "and the boundary-aligned cross-field they give.</p><p>BSD-3-Clause</p>",
-        )
 
     def escape(self) -> None:
         """Put a dragged singularity back, else take the select tool."""
@@ -237,6 +227,7 @@ class MainWindow(QMainWindow):
         """Arrange the docks once there is a size to share."""
         super().showEvent(event)
         self.window_geometry.show()
+        self.viewport.plotter.setFocus()  # where keys are heard as tools
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Ask about unsaved changes; end the background and free what VTK holds."""

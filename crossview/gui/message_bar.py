@@ -16,7 +16,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from crossview.gui.icons import colored_icon, icon
+from crossview.gui.icons import colored_icon, put_icon
 from crossview.session.message import Message
 from crossview.session.session import Session
 from crossview.session.state import SessionState
@@ -56,17 +56,20 @@ class MessageBar(QFrame):
         self.details_button.setCheckable(True)
         self.details_button.toggled.connect(self._show_details)
         self.copy_button = QToolButton()
-        self.copy_button.setIcon(icon("copy"))
+        put_icon(self.copy_button, "copy")
         self.copy_button.setToolTip("Copy the details")
+        self.copy_button.setAccessibleName("Copy the details")
         self.copy_button.setAutoRaise(True)
         self.copy_button.clicked.connect(self.copy)
         close = QToolButton()
-        close.setIcon(icon("close"))
+        put_icon(close, "close")
         close.setToolTip("Dismiss")
+        close.setAccessibleName("Dismiss")
         close.setAutoRaise(True)
         close.clicked.connect(lambda: self._session.dismiss())
         self.details = QPlainTextEdit()
         self.details.setReadOnly(True)
+        self.details.setAccessibleName("Details")
         self.details.setFixedHeight(104)
         self.action_buttons: list[QPushButton] = []
         line = QHBoxLayout()

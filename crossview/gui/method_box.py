@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QComboBox
 
 from crossview.cases.model import METHODS
@@ -20,7 +19,6 @@ class MethodBox(QComboBox):
             self.addItem(METHOD_LABELS[method], method)
         self.setToolTip("Method: how the field is made; keys 1, 2, 3 of the keypad")
         self.setAccessibleName("Method")
-        self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
         self.setEnabled(False)
         self.activated.connect(lambda row: session.edits.choose_method(METHODS[row]))
 

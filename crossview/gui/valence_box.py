@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QLocale, Qt
+from PySide6.QtCore import QLocale
 from PySide6.QtWidgets import QSpinBox
 
 from crossview.session.commands import MAX_VALENCE, MIN_VALENCE
@@ -18,5 +18,5 @@ class ValenceBox(QSpinBox):
         self.setRange(MIN_VALENCE, MAX_VALENCE)
         self.setValue(session.state.any_valence)
         self.setToolTip("Valence that the tool n places")
-        self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
+        self.setAccessibleName("Valence that the tool n places")
         self.valueChanged.connect(session.pointer.choose_valence)

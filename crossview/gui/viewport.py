@@ -16,8 +16,18 @@ from collections.abc import Callable
 from dataclasses import fields, replace
 
 import numpy as np
-from PySide6.QtCore import QEvent, QPointF, Qt, QTimer, Signal
-from PySide6.QtGui import QFont, QFontMetrics, QMouseEvent, QResizeEvent, QWheelEvent
+from PySide6.QtCore import QEvent, QObject, QPointF, Qt, QTimer, Signal
+from PySide6.QtGui import (
+    QColor,
+    QFocusEvent,
+    QFont,
+    QFontMetrics,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QResizeEvent,
+    QWheelEvent,
+)
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 from pyvistaqt import QtInteractor
 
@@ -29,6 +39,7 @@ from crossview.session.held_ranges import HeldRanges
 from crossview.session.pictures import scene_view
 from crossview.session.session import Session
 from crossview.session.state import SessionState
+from crossview.view.colors import THEMES
 from crossview.view.scalars import shown_scalar
 from crossview.workflow.spots import Spot
 
@@ -36,6 +47,8 @@ LATE_MS = 120
 """How long a dragged singularity waits to be drawn together with its field."""
 REST_MS = 300
 """How long nothing may move before a smooth picture is drawn on a software renderer."""
+FRAME = 2
+"""Width of the frame that shows the focus, in pixels. Chosen."""
 TITLE_PIXELS, BESIDE_TITLE = 17, 130
 """Height of the title's letters; pixels beside it that the axes need."""
 BASE_DPI = 72
@@ -62,8 +75,11 @@ class Viewport(QWidget):
         samples = 1 if self._software else 4
         self.plotter = QtInteractor(self, auto_update=False, multi_samples=samples)
         self.plotter.setAcceptDrops(False)
+        self.plotter.setAccessibleName("Scene")
+        self.plotter.installEventFilter(self)
+        self._by_key = False  # whether the focus has come by one
         layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setContentsMargins(FRAME, FRAME, FRAME, FRAME)
         layout.addWidget(self.plotter)
         self.scene = Scene(self.plotter, self.devicePixelRatioF())
         self.picker = Picker(self.plotter.renderer)
@@ -154,6 +170,21 @@ class Viewport(QWidget):
     def change_projection(self) -> None:
         """Show in perspective what is shown in parallel, or the other way round."""
         self.look_with(self.scene.camera.other_projection)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Show or take away the frame of the focus."""
+        if isinstance(event, QFocusEvent):
+            by_key = (Qt.FocusReason.TabFocusReason, Qt.FocusReason.BacktabFocusReason)
+            self._by_key = event.gotFocus() and event.reason() in by_key
+            self.update()
+        return super().eventFilter(watched, event)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the frame about the scene: the focus, or nothing."""
+        with QPainter(self) as painter:
+            background = THEMES["dark" if self._session.state.dark else "white"].background
+            color = self.palette().highlight().color() if self._by_key else QColor(background)
+            painter.fillRect(self.rect(), color)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Fill the new room, unless the user has chosen a view."""

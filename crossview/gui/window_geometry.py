@@ -12,7 +12,7 @@ from crossview.gui.docks import size_docks
 GEOMETRY, DOCKS = "window/geometry", "window/docks"
 """Where settings keep the place of the window, and that of its panels."""
 
-VERSION = 1
+VERSION = 2
 """To be raised when docks come or go: what was kept of others is then forgotten."""
 
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import Protocol
 
+from crossview.gui.appearance import Appearance
 from crossview.gui.files import Files
+from crossview.gui.help_page import Help
 from crossview.session.session import Session
 
 
@@ -18,6 +20,14 @@ class WindowVerbs(Protocol):
     @property
     def files(self) -> Files:
         """Opening, saving and exporting, with their dialogs."""
+
+    @property
+    def help(self) -> Help:
+        """Keys, what this is, and what a report of trouble should tell."""
+
+    @property
+    def appearance(self) -> Appearance:
+        """The preferences in force, and their dialog."""
 
     def add_pair(self) -> None:
         """Add a pair where the mouse is, where the menu was asked for, or where there is room."""
@@ -37,17 +47,8 @@ class WindowVerbs(Protocol):
     def paste_camera(self) -> None:
         """Look with the camera that the clipboard holds."""
 
-    def copy_script(self) -> None:
-        """Put a Python script of what was done into the clipboard."""
-
-    def copy_diagnostics(self) -> None:
-        """Put what a report of trouble should tell into the clipboard."""
-
     def show_gallery(self) -> None:
         """Show the cases that come with crossview, to open one."""
-
-    def show_keys(self) -> None:
-        """List all keys."""
 
     def escape(self) -> None:
         """Put a dragged singularity back, else take the select tool."""
@@ -60,9 +61,6 @@ class WindowVerbs(Protocol):
 
     def reset_docks(self) -> None:
         """Put all panels back to where they stand at first."""
-
-    def show_about(self) -> None:
-        """Say what this is."""
 
     def show_palette(self) -> None:
         """Open the command palette."""

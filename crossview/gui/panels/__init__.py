@@ -5,6 +5,7 @@ from __future__ import annotations
 from crossview.gui.panels.convergence import ConvergencePanel
 from crossview.gui.panels.export import ExportPanel
 from crossview.gui.panels.layers import LayersPanel
+from crossview.gui.panels.log import LogPanel
 from crossview.gui.panels.quads import QuadsPanel
 from crossview.gui.panels.singularities import SingularitiesPanel
 from crossview.gui.panels.surface import SurfacePanel
@@ -14,6 +15,7 @@ __all__ = [
     "ConvergencePanel",
     "ExportPanel",
     "LayersPanel",
+    "LogPanel",
     "QuadsPanel",
     "SingularitiesPanel",
     "SurfacePanel",

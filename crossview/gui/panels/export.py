@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 
 from crossview.export.raster import LONGEST_SIDE, SHORTEST_SIDE
 from crossview.gui.figure import FigureSettings
+from crossview.gui.icons import put_icon
 from crossview.view.texts import grouped
 
 LEAST_PREVIEW = QSize(80, 48)
@@ -40,6 +41,13 @@ class ExportPanel(QWidget):
         self.dpi_box = _box(36, 2400, default.dpi)
         self.dpi_box.setSuffix(" dpi")
         self.dpi_box.setToolTip("Pixels of the file per inch on paper")
+        for box, name in (
+            (self.width_box, "Width, pixels"),
+            (self.height_box, "Height, pixels"),
+            (self.scale_box, "Scale"),
+            (self.dpi_box, "Pixels per inch"),
+        ):
+            box.setAccessibleName(name)
         self.transparent_box = QCheckBox("Transparent background")
         self.result = QLabel()
         self.result.setForegroundRole(self.palette().ColorRole.PlaceholderText)
@@ -47,7 +55,8 @@ class ExportPanel(QWidget):
         self.preview.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.preview.setMinimumSize(LEAST_PREVIEW)
         self.preview.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Expanding)
-        self.button = QPushButton(export.icon(), "Export figure…")
+        self.button = QPushButton("Export figure…")
+        put_icon(self.button, "figure")
         self.button.clicked.connect(export.trigger)
         export.enabledChanged.connect(self.button.setEnabled)
         self.button.setEnabled(export.isEnabled())

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QPalette, QResizeEvent
-from PySide6.QtWidgets import QFrame, QListView, QListWidget, QListWidgetItem
+from PySide6.QtWidgets import QApplication, QListView, QListWidget, QListWidgetItem
 
 from crossview.gui.icons import icon
+from crossview.gui.panels.focus import frame_focus
 from crossview.view.scene_view import LayerKind
 
 ROW, EYE, COLUMNS = 22, 24, 2
@@ -26,7 +27,7 @@ class LayerList(QListWidget):
         super().__init__()
         self._kinds = kinds
         self.setAccessibleName("Layers")
-        self.setFrameShape(QFrame.Shape.NoFrame)
+        frame_focus(self)
         self.setIconSize(QSize(16, 16))
         self.setFlow(QListView.Flow.TopToBottom)
         self.setWrapping(True)
@@ -55,7 +56,7 @@ class LayerList(QListWidget):
         item = self.item([kind.name for kind in self._kinds].index(name))
         role = QPalette.ColorRole.PlaceholderText if covered else QPalette.ColorRole.Text
         item.setIcon(icon("eye" if visible else "eye-off"))
-        item.setForeground(self.palette().color(role))
+        item.setForeground(QApplication.palette().color(role))
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Share the width among the columns."""

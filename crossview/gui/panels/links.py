@@ -5,6 +5,7 @@ from __future__ import annotations
 from html import escape
 
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QLabel
 
 
@@ -21,6 +22,14 @@ class LinkLabel(QLabel):
             | flags.LinksAccessibleByMouse
             | flags.LinksAccessibleByKeyboard
         )
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Frame the text while it has the focus."""
+        super().paintEvent(event)
+        if self.hasFocus():
+            with QPainter(self) as painter:
+                painter.setPen(self.palette().highlight().color())
+                painter.drawRect(self.rect().adjusted(0, 0, -1, -1))
 
 
 def link(text: str, target: str) -> str:

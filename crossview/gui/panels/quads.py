@@ -23,7 +23,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from crossview.gui.icons import verdict_icon
+from crossview.gui.icons import put_icon, verdict_icon
 from crossview.gui.panels.histogram import Histogram
 from crossview.gui.panels.links import LinkLabel, faint, link
 from crossview.gui.panels.quad_facts import ROWS, quad_facts
@@ -75,10 +75,12 @@ class QuadsPanel(QScrollArea):
         self.length_box.setDecimals(4)
         self.length_box.setRange(1e-4, 1e6)
         self.length_box.setToolTip("Mean length of the quads' edges, in units of the surface")
+        self.unit.setAccessibleName("What is given")
+        self.count_box.setAccessibleName("Quads")
+        self.length_box.setAccessibleName("Edge length")
         self.boxes = QStackedWidget()
         for box in (self.count_box, self.length_box):
             box.setLocale(QLocale.c())
-            box.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
             # as wide as there is room: what the widest number needs is more than a dock has
             box.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
             self.boxes.addWidget(box)
@@ -93,11 +95,12 @@ class QuadsPanel(QScrollArea):
         self.chord_box.setValue(100.0 * MAX_CHORD)
         self.chord_box.setSuffix(" %")
         self.chord_box.setLocale(QLocale.c())
-        self.chord_box.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
+        self.chord_box.setAccessibleName("Distance of edges from bends, percent")
         self.chord_box.setToolTip(
             "How far an edge may be from the boundary or feature it follows, in radii of its bend"
         )
-        self.button = QPushButton(make.icon(), make.text())
+        self.button = QPushButton(make.text())
+        put_icon(self.button, "mesh")
         self.button.setToolTip(make.toolTip())
         self.button.clicked.connect(make.trigger)
         self.button.setEnabled(make.isEnabled())

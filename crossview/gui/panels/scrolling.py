@@ -11,6 +11,7 @@ def scrolled(area: QScrollArea) -> QVBoxLayout:
     content = QWidget()
     area.setWidget(content)
     area.setWidgetResizable(True)
+    area.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # it follows the focus of what is in it
     area.setFrameShape(QFrame.Shape.NoFrame)
     area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
     for widget in (content, area.viewport()):

@@ -9,7 +9,6 @@ from PySide6.QtGui import QAction, QGuiApplication, QKeyEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QApplication,
-    QFrame,
     QHBoxLayout,
     QHeaderView,
     QLabel,
@@ -23,7 +22,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from crossview.gui.icons import icon
+from crossview.gui.icons import put_icon
+from crossview.gui.panels.focus import frame_focus
 from crossview.gui.panels.singularity_model import LOCK, POSITION, VALENCE, SingularityModel
 from crossview.session.commands import MIN_VALENCE
 from crossview.session.session import Session
@@ -114,7 +114,7 @@ class SingularitiesPanel(QWidget):
     def _make_table(self) -> QTableView:
         table = QTableView()
         table.setModel(self.model)
-        table.setFrameShape(QFrame.Shape.NoFrame)
+        frame_focus(table)
         table.setShowGrid(False)
         table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
         table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
@@ -153,7 +153,7 @@ class SingularitiesPanel(QWidget):
     def _make_add_button(self) -> QToolButton:
         button = QToolButton()
         button.setText("Add")
-        button.setIcon(icon("plus"))
+        put_icon(button, "plus")
         button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         button.setAutoRaise(True)
         button.setToolTip("Choose a valence, then click on the surface")

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from crossview.session.store import Store
 from crossview.session.verbs.solving import Solving
-from crossview.view.scalars import SURFACE_SCALARS
+from crossview.view.scalars import SCALARS, SURFACE_SCALARS
 from crossview.view.scene_view import LayerSettings, default_layers
 
 
@@ -61,9 +61,19 @@ class Looks:
             state = state.with_layer_shown(name, name in before)
         self._store.update(replace(state, uncompared=None))
 
+    def shade(self, shaded: bool) -> None:
+        """Light the colours of all scalars, or show them as the bar does."""
+        layers = self._store.state.layers
+        lit = {name: replace(layers[name], shaded=shaded) for name in SCALARS}
+        self._store.update(replace(self._store.state, layers={**layers, **lit}))
+
+    def set_dark(self, dark: bool) -> None:
+        """Draw on a dark background, or on white."""
+        self._store.update(replace(self._store.state, dark=dark))
+
     def toggle_dark(self) -> None:
         """Draw on a dark background, or on white again."""
-        self._store.update(replace(self._store.state, dark=not self._store.state.dark))
+        self.set_dark(not self._store.state.dark)
 
     def show_poor(self, shown: bool) -> None:
         """Point out the poor triangles."""

@@ -1,0 +1,133 @@
+"""Every widget says its name and shows its focus; themes, preferences, the log."""
+
+from dataclasses import replace
+
+import numpy as np
+from PySide6.QtCore import QSettings, Qt
+from PySide6.QtGui import QAccessible, QGuiApplication, QImage
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QDialog, QWidget
+
+from crossview.gui.docks import TABS
+from crossview.gui.panels import LogPanel
+from crossview.gui.preferences import Preferences, PreferencesDialog
+from crossview.view.colors import THEMES
+from tests.windowing import Hand
+
+TAB = Qt.FocusPolicy.TabFocus
+
+
+def reached_by_tab(root: QWidget) -> list[QWidget]:
+    return [
+        widget
+        for widget in root.findChildren(QWidget)
+        if widget.focusPolicy() & TAB
+        and not widget.visibleRegion().isEmpty()
+        and widget.isEnabled()
+        and not widget.objectName().startswith("qt_")  # a part of another
+    ]
+
+
+def name_of(widget: QWidget) -> str:
+    return QAccessible.queryAccessibleInterface(widget).text(QAccessible.Text.Name)
+
+
+def bytes_of(image: QImage) -> bytes:
+    return bytes(image.constBits())
+
+
+def test_tab_reaches_every_widget_each_with_a_name_and_a_focus_that_is_seen(hand: Hand) -> None:
+    hand.open("annulus-near")
+    hand.trigger("mesh")
+    window = hand.window
+    window.docks["Log"].show()
+    reached: set[QWidget] = set()
+    for title in TABS:
+        window.docks[title].raise_()
+        QApplication.processEvents()
+        wanted = set(reached_by_tab(window))
+        assert not [widget for widget in wanted if not name_of(widget)]
+        hand.canvas.setFocus()
+        QTest.keyClick(hand.canvas, Qt.Key.Key_Tab)
+        for _ in range(len(wanted) + 20):
+            widget = QApplication.focusWidget()
+            assert widget is not None
+            around = window.viewport if widget is hand.canvas else widget
+            before = bytes_of(around.grab().toImage())
+            QTest.keyClick(widget, Qt.Key.Key_Tab)
+            QApplication.processEvents()
+            if widget not in reached and QApplication.focusWidget() is not widget:
+                assert before != bytes_of(around.grab().toImage()), f"unseen: {name_of(widget)}"
+            reached.add(widget)
+        left = wanted & set(reached_by_tab(window))  # settings may be of another layer by now
+        missed = [name_of(widget) for widget in left - reached]
+        assert not missed
+    assert len(reached) > 25
+
+
+def test_a_theme_turns_window_icons_and_scene(hand: Hand) -> None:
+    hand.open("disk-4")
+
+    def lightness() -> tuple[float, float, float]:
+        QApplication.processEvents()
+        picture = hand.window.grab().toImage()
+        icon = hand.window.actions_table.by_name["open"].icon().pixmap(20, 20).toImage()
+        inked = [
+            icon.pixelColor(x, y).lightnessF()
+            for x in range(20)
+            for y in range(20)
+            if icon.pixelColor(x, y).alphaF() > 0.9
+        ]
+        scene = hand.picture()[4, 4] / 255
+        return picture.pixelColor(5, 5).lightnessF(), float(np.mean(inked)), float(scene.mean())
+
+    window = hand.window
+    light = lightness()
+    window.appearance.show_dialog()
+    dialog = window.findChild(PreferencesDialog)
+    assert dialog is not None
+    assert not [w for w in reached_by_tab(dialog) if not name_of(w)]
+    dialog.theme.setCurrentIndex(dialog.theme.findData("dark"))
+    dark = lightness()
+    assert light[0] > 0.8 > 0.5 > dark[0]
+    assert light[1] < 0.3 < 0.7 < dark[1]
+    assert hand.shows(THEMES["dark"].background)
+    assert light[2] > 0.9 > 0.2 > dark[2]
+    assert Preferences.load().theme == "dark"
+    dialog.theme.setCurrentIndex(dialog.theme.findData("light"))
+    assert lightness() == light
+    dialog.shaded.setChecked(True)
+    assert hand.state.layers["H"].shaded
+    dialog.quads.setValue(1234)
+    assert window.quads_panel.options.target_quads == 1234
+    dialog.close()
+
+
+def test_settings_that_make_no_sense_are_as_at_first(settings: None) -> None:
+    QSettings().setValue("preferences/theme", "purple")
+    QSettings().setValue("preferences/quads", -7)
+    found = Preferences.load()
+    assert (found.theme, found.quads) == ("system", 1)
+    replace(found, theme="dark", copies=False).keep()
+    assert Preferences.load() == replace(found, theme="dark", copies=False)
+
+
+def test_the_log_tells_what_was_done_and_diagnostics_tell_the_log(hand: Hand) -> None:
+    hand.open("disk-4")
+    hand.window.session.edits.step_valence(1, 0)
+    hand.trigger("undo")
+    hand.trigger("redo")
+    hand.window.session.edits.change_valence(1, 99)
+    told = [(entry.kind, entry.text) for entry in hand.window.log.entries]
+    done = [text for kind, text in told if kind == "done"]
+    assert done[0] == "open disk-4"
+    assert done[2:] == [f"undo {done[1]}", f"redo {done[1]}"]
+    assert ("error", "valence 99 is not offered: choose from 1 to 12, but 4") in told
+    panel = hand.window.findChild(LogPanel)
+    assert panel is not None
+    assert panel.toPlainText().count("\n") == len(told) - 1
+    hand.trigger("diagnostics")
+    assert "redo" in QGuiApplication.clipboard().text()
+    hand.trigger("preferences")
+    for dialog in hand.window.findChildren(QDialog):
+        dialog.close()
