@@ -130,7 +130,7 @@ class Problem:
 
     @property
     def known_turns(self) -> tuple[int, ...] | None:
-        """The turns of its field, as far as they are known before any solve: where it is flat."""
+        """The turns of its field, known before any solve where it is flat."""
         turning = [s.index for s in self.singularities] + list(self.chosen_corners.values())
         return None if self.method == "isotropic" or any(turning) else self.options.turns
 

@@ -12,6 +12,7 @@ from solvers.kind_checks import all_of_kind, one_of_kind
 from solvers.number_checks import whole_number
 from solvers.remedies import Remedy, in_words
 from solvers.singularities.remedies import AddMissing, ChangeOne, RemoveOne
+from solvers.singularities.topology import decide
 from solvers.surface.points import SurfacePoint
 from solvers.surface.triangulation import QUARTER
 from solvers.surface.trisurface import TriSurface
@@ -187,6 +188,36 @@ def checked_corners(surface: TriSurface, corners: Mapping[int, int]) -> dict[int
     return found
 
 
+def corner_indices(surface: TriSurface, corners: Mapping[int, int]) -> list[list[int]]:
+    """Return the indices of the corners along each boundary loop, from behind its first vertex.
+
+    Parameters
+    ----------
+    surface : TriSurface
+        The surface.
+    corners : mapping of int to int
+        Index by boundary vertex; zeros are left out.
+
+    Returns
+    -------
+    list of list of int
+        One for each loop.
+
+    Examples
+    --------
+    >>> from solvers.primitives import square
+    >>> from solvers.singularities import default_corners
+    >>> from solvers.singularities.budget import corner_indices
+    >>> surface = square(n=2)
+    >>> corner_indices(surface, default_corners(surface))
+    [[1, 1, 1, 1]]
+    """
+    index = np.zeros(surface.n_vertices, dtype=np.int64)
+    index[list(corners)] = list(corners.values())
+    around = [np.roll(index[loop], -1) for loop in surface.boundary_loops]
+    return [along[along != 0].tolist() for along in around]
+
+
 @dataclass(frozen=True)
 class IndexBudget:
     """The sum of all indices against the sum the topology demands.
@@ -198,7 +229,7 @@ class IndexBudget:
     required : int
         Four times the Euler characteristic.
     remedies : tuple of Remedy
-        Single changes that would meet the budget.
+        Single changes that would meet the budget, each to what topology does not forbid.
 
     Examples
     --------
@@ -268,7 +299,18 @@ def index_budget(
     total = sum(s.index for s in placed) + sum(checked_corners(surface, corners).values())
     required = 4 * surface.euler_characteristic
     missing = required - total
-    remedies = _remedies(missing, placed) if missing else ()
+    remedies: tuple[Remedy, ...] = ()
+    if missing:
+        around = corner_indices(surface, corners)
+        all_that_meet = _meeting(missing, placed)
+        possible = [
+            remedy
+            for remedy, indices in all_that_meet
+            if decide(surface.genus, around, indices)[0] != "impossible"
+        ]
+        # one that changes a singularity is enough
+        own = [r for r in possible if not isinstance(r, AddMissing)]
+        remedies = tuple([r for r in possible if r not in own] + own[:1]) or (all_that_meet[0][0],)
     return IndexBudget(total, required, remedies)
 
 
@@ -309,20 +351,25 @@ def require_budget(
         )
 
 
-def _remedies(missing: int, singularities: Sequence[Singularity]) -> tuple[Remedy, ...]:
-    found: list[Remedy] = [AddMissing.of(3 if missing > 0 else 5, abs(missing))]
+def _meeting(missing: int, singularities: Sequence[Singularity]) -> list[tuple[Remedy, list[int]]]:
+    """Return what would meet the budget, each with the indices then; the change of one last."""
+    now = [s.index for s in singularities]
+    sign = 1 if missing > 0 else -1
+    added = AddMissing.of(4 - sign, abs(missing))
+    found: list[tuple[Remedy, list[int]]] = [(added, now + [sign] * abs(missing))]
     if missing < -1:
-        found.append(AddMissing.of(4 - missing, 1))
+        found.append((AddMissing.of(4 - missing, 1), [*now, missing]))
     changed = [
         (abs(s.valence - missing - 4), -number, s.valence - missing)
         for number, s in enumerate(singularities)
         if s.valence - missing >= 1 and not s.locked
     ]
-    if changed:  # to the most usual valence, of the newest
-        _, number, valence = min(changed)
+    for _, number, valence in sorted(changed):  # to the most usual valence, of the newest
+        others = now[:-number] + now[1 - number :]
         name = f"#{1 - number}"
         if valence == 4:  # regular: it is to go
-            found.append(RemoveOne(f"remove {name}", -number))
+            found.append((RemoveOne(f"remove {name}", -number), others))
         else:
-            found.append(ChangeOne(f"make {name} a valence {valence}", -number, valence))
-    return tuple(found)
+            made = ChangeOne(f"make {name} a valence {valence}", -number, valence)
+            found.append((made, [*others, 4 - valence]))
+    return found

@@ -13,6 +13,7 @@ from solvers.singularities.budget import (
     Singularity,
     checked_corners,
     checked_singularities,
+    corner_indices,
     index_budget,
 )
 from solvers.singularities.remedies import AddPair, ChangeCorners, ChangeTurns
@@ -96,10 +97,7 @@ def existence(
     placed = checked_singularities(singularities)
     turning = {vertex: k for vertex, k in checked_corners(surface, corners).items() if k}
     indices = [s.index for s in placed if s.index]
-    index = np.zeros(surface.n_vertices, dtype=np.int64)
-    index[list(turning)] = list(turning.values())
-    around = [np.roll(index[loop], -1) for loop in surface.boundary_loops]
-    loops = [along[along != 0].tolist() for along in around]
+    loops = corner_indices(surface, turning)
     genus = surface.genus
     answer, theorem = decide(genus, loops, indices, turns)
     remedies: tuple[Remedy, ...] = ()

@@ -70,7 +70,7 @@ class ChangeOne(Remedy):
     >>> surface = torus(n=12)
     >>> places = [surface.point_at_vertex(vertex) for vertex in (0, 40)]
     >>> pair = [Singularity(places[0], 3), Singularity(places[1], 6)]
-    >>> index_budget(surface, pair, {}).remedies[-1] == ChangeOne("make #2 a valence 5", 1, 5)
+    >>> index_budget(surface, pair, {}).remedies[-1] == ChangeOne("make #1 a valence 2", 0, 2)
     True
     """
 

@@ -52,7 +52,7 @@ def test_the_index_of_a_corner_is_that_of_the_nearest_number_of_quads(
         ("sphere", [3] * 7, "index 7 of 8: add one valence 3"),
         ("disk", [3, 3], "index 2 of 4: add 2 valence 3 or make #2 a valence 1"),
         ("annulus", [3], "index 1 of 0: add one valence 5 or remove #1"),
-        ("torus", [3, 3, 5], "index 1 of 0: add one valence 5 or remove #2"),
+        ("torus", [3, 3, 5], "index 1 of 0: add one valence 5 or make #3 a valence 6"),
         ("double_torus", [8], "index -4 of -8: add 4 valence 5 or add one valence 8"),
         ("square", [], "index 4 of 4"),
     ],
