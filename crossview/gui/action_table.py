@@ -239,7 +239,8 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ),
     ActionSpec(
         "select-all", "Select all", "Edit", lambda w: w.session.pointer.select_all(),
-        ("Ctrl+A",), tip="Select every singularity; Ctrl and a click adds one or takes one away",
+        ("Ctrl+A",), tip="Select every singularity; Ctrl and a click adds one or takes one away, "
+        "Ctrl and a drag those in a band. Arrow keys move what is selected, a drag of one all",
         enabled=_placed, separated=True,
     ),
     ActionSpec(

@@ -5,9 +5,10 @@ from __future__ import annotations
 from enum import Enum, auto
 
 from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, Qt, Signal
-from PySide6.QtGui import QMouseEvent, QWheelEvent
+from PySide6.QtGui import QKeyEvent, QMouseEvent, QWheelEvent
 from PySide6.QtWidgets import QToolTip
 
+from crossview.gui.group import Group
 from crossview.gui.picking import Pick
 from crossview.gui.viewport import Viewport
 from crossview.session.session import Session
@@ -26,6 +27,7 @@ class _Grip(Enum):
     CAMERA = auto()
     SINGULARITY = auto()
     DRAG = auto()
+    BAND = auto()
 
 
 class Mouse(QObject):
@@ -48,6 +50,7 @@ class Mouse(QObject):
         self.under_menu: Pick | None = None
         self._viewport = viewport
         self._session = session
+        self.group = Group(viewport, session)
         self._grip = _Grip.NOTHING
         self._held = -1
         self._pressed_at = QPointF()
@@ -64,6 +67,10 @@ class Mouse(QObject):
         """Take an event, or leave it to the camera."""
         kind = event.type()
         if kind in (QEvent.Type.KeyPress, QEvent.Type.KeyRelease):
+            if isinstance(event, QKeyEvent) and kind == QEvent.Type.KeyPress:
+                plain = not event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier
+                if plain and self.group.move(Qt.Key(event.key())):
+                    return True
             event.ignore()  # VTK has keys of its own (q closes); the window's shortcuts are all
             return True
         if kind == QEvent.Type.Leave:
@@ -92,7 +99,10 @@ class Mouse(QObject):
                 self.edit_wanted.emit(index)
             self._grip = _Grip.CAMERA if index is None else _Grip.SINGULARITY
             self._held = -1 if index is None else index
-        return self._grip is _Grip.SINGULARITY
+            if index is None and event.modifiers() & Qt.KeyboardModifier.ControlModifier:
+                self._grip = _Grip.BAND
+                self.group.start_band(event.position())
+        return self._grip in (_Grip.SINGULARITY, _Grip.BAND)
 
     def _move(self, event: QMouseEvent) -> bool:
         away = (event.position() - self._pressed_at).manhattanLength() >= CLICK_REACH
@@ -102,6 +112,9 @@ class Mouse(QObject):
             self._grip = _Grip.DRAG if started else _Grip.NOTHING
             if not started:
                 self._refuse(event.globalPosition().toPoint())
+        if self._grip is _Grip.BAND:
+            self.group.stretch_band(event.position())
+            return True
         if self._grip is _Grip.DRAG:
             pick = self._viewport.pick(event.position())
             if pick is not None:
@@ -131,7 +144,11 @@ class Mouse(QObject):
         if event.button() != Qt.MouseButton.LeftButton:
             return False
         if grip is _Grip.DRAG:
-            self._session.trials.drop()
+            by = event.position() - self._pressed_at
+            together = self.group.companions(self._held)
+            self._session.trials.drop(self.group.displaced(by, together))
+        elif grip is _Grip.BAND:
+            self.group.end_band(event.position())
         elif grip is _Grip.SINGULARITY:
             both = bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier)
             self._session.pointer.select(self._held, both)

@@ -91,6 +91,23 @@ class Picker:
                 best = (distance, index)
         return None if best is None else best[1]
 
+    def within(
+        self, low: Place, high: Place, positions: NDArray[np.float64], radius: float
+    ) -> tuple[int, ...]:
+        """Return which of `positions`, centres of discs, are seen between two places."""
+        found = []
+        for index, position in enumerate(positions):
+            x, y = centre = self._display(position)
+            inside = low[0] <= x <= high[0] and low[1] <= y <= high[1]
+            if inside and self._visible(position, centre, radius):
+                found.append(index)
+        return tuple(found)
+
+    def beside(self, position: NDArray[np.float64], by: Place) -> Pick | None:
+        """Return what the ray hits that passes a position of space at a distance in the picture."""
+        x, y = self._display(position)
+        return self.pick((x + by[0], y + by[1]))
+
     def _visible(self, position: NDArray[np.float64], centre: Place, radius: float) -> bool:
         """Whether nothing is before it; a ray may slip between triangles and hit the far side."""
         pick = self.pick(centre)

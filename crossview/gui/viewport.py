@@ -16,7 +16,8 @@ from collections.abc import Callable
 from dataclasses import fields, replace
 
 import numpy as np
-from PySide6.QtCore import QEvent, QObject, QPointF, Qt, QTimer, Signal
+from numpy.typing import NDArray
+from PySide6.QtCore import QEvent, QObject, QPointF, QRectF, Qt, QTimer, Signal
 from PySide6.QtGui import (
     QColor,
     QFocusEvent,
@@ -42,6 +43,7 @@ from crossview.session.state import SessionState
 from crossview.view.colors import THEMES
 from crossview.view.scalars import shown_scalar
 from crossview.workflow.spots import Spot
+from solvers.surface import SurfacePoint
 
 LATE_MS = 120
 """How long a dragged singularity waits to be drawn together with its field."""
@@ -199,16 +201,35 @@ class Viewport(QWidget):
 
     def singularity_at(self, place: QPointF) -> int | None:
         """Return the number of the singularity under a place of the widget."""
+        positions, radius = self._discs()
+        reach = REACH * self.devicePixelRatioF()
+        return self.picker.nearest(self._place(place), positions, radius, reach)
+
+    def singularities_in(self, area: QRectF) -> tuple[int, ...]:
+        """Return the numbers of the singularities seen in an area of the widget."""
+        low, high = self._place(area.bottomLeft()), self._place(area.topRight())
+        return self.picker.within(low, high, *self._discs())
+
+    def point_beside(self, index: int, by: QPointF) -> SurfacePoint | None:
+        """Return the point of the shown surface that is seen beside a singularity, if any is."""
+        document = self._session.state.document
+        if document is None:
+            return None
+        ratio = self.devicePixelRatioF()
+        position = document.surface.position(self._session.state.singularities[index].point)
+        pick = self.picker.beside(position, (by.x() * ratio, -by.y() * ratio))
+        return None if pick is None else pick.point
+
+    def _discs(self) -> tuple[NDArray[np.float64], float]:
+        """Return where the singularities are, (k, 3), those that are drawn, and their radius."""
         state = self._session.state
         document = state.document
         if document is None or not state.singularities or not state.layers["singularities"].visible:
-            return None
+            return np.empty((0, 3)), 0.0
         positions = np.asarray(document.surface.positions([s.point for s in state.singularities]))
         markers = scene_view(state).singularities
         size = state.layers["singularities"].size
-        radius = marker_radius(markers, document.surface.diagonal, size)
-        reach = REACH * self.devicePixelRatioF()
-        return self.picker.nearest(self._place(place), positions, radius, reach)
+        return positions, marker_radius(markers, document.surface.diagonal, size)
 
     def point_out(self, singularity: int | None) -> None:
         """Show by the cursor that something can be taken hold of."""

@@ -99,6 +99,11 @@ class Focus:
         left = [one for one in self.all if one != index]
         return replace(self, selected=left[-1] if left else None, others=frozenset(left[:-1]))
 
+    def holding(self, index: int) -> Focus:
+        """Return this with `index` foremost of those it is selected with, else alone."""
+        others = frozenset(self.all) - {index} if index in self.all else frozenset[int]()
+        return replace(self, selected=index, others=others)
+
     def among(self, before: int, count: int) -> Focus:
         """Return what is left of this after an edit of `before` singularities leaves `count`."""
         gone = self.selected is not None and self.selected >= count

@@ -168,7 +168,7 @@ class SessionState(Facts):
         placed = point if self.base is None else self.base.refinement.locate(point)
         edit = self._edit(document)
         trial = Trial(document.singularities, index, placed, surface, edit, drag=True)
-        return replace(self, trial=trial, focus=replace(self.focus, selected=index))
+        return replace(self, trial=trial, focus=self.focus.holding(index))
 
     def dragged_to(self, point: SurfacePoint) -> SessionState:
         """Return the state with the held singularity at a point of the shown surface."""

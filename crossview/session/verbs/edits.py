@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from crossview.session.commands import (
@@ -13,6 +13,7 @@ from crossview.session.commands import (
     ChooseMethod,
     Command,
     LockSingularity,
+    MoveSingularity,
     RemoveSingularities,
     Together,
     next_valence,
@@ -88,6 +89,15 @@ class Edits:
         following = {i: next_valence(self._valence(i), step) for i in indices}
         changes = [ChangeValence(i, v) for i, v in following.items() if v != self._valence(i)]
         self._do_all(changes, f"change {len(changes)} valences")
+
+    def move(self, places: Mapping[int, SurfacePoint]) -> None:
+        """Put singularities to points of the shown surface, one step for all; not locked ones."""
+        state = self._store.state
+        free = {i: point for i, point in places.items() if not state.singularities[i].locked}
+        self._do_all(
+            [MoveSingularity(i, state.lifted(point)) for i, point in free.items()],
+            f"move {len(free)} singularities",
+        )
 
     def toggle_lock(self, *indices: int) -> None:
         """Lock singularities, or unlock them if all are locked."""

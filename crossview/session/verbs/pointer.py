@@ -29,6 +29,12 @@ class Pointer:
         if count:
             self._to(replace(self._focus, selected=count - 1, others=frozenset(range(count - 1))))
 
+    def select_also(self, indices: tuple[int, ...]) -> None:
+        """Select singularities besides those that are."""
+        chosen = sorted({*self._focus.all, *indices})
+        if chosen:
+            self._to(replace(self._focus, selected=chosen[-1], others=frozenset(chosen[:-1])))
+
     def choose(self, index: int) -> None:
         """Select singularity `index` in place of the one selected; a second one stays."""
         self._store.update(self._store.state.selecting(index))

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from crossview.session.commands import MoveSingularity
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from crossview.session.commands import MoveSingularity, Together
 from crossview.session.guide_curves import Guidance
 from crossview.session.hand import Trial
 from crossview.session.verbs.group import VerbGroup
@@ -47,12 +50,26 @@ class Trials(VerbGroup):
         if trial is not None and trial.edit is not None and self._state.field is not None:
             self._solving.try_out(trial.edit)
 
-    def drop(self) -> None:
-        """Let go: the whole drag becomes one step, and the refined field is solved."""
-        trial = self._held
-        if trial is not None:
-            self._store.update(self._state.let_go())
-            self._do(MoveSingularity(trial.index, trial.held.point))
+    def drop(self, others: Mapping[int, SurfacePoint] = MappingProxyType({})) -> None:
+        """Let go: the whole drag becomes one step, and the refined field is solved.
+
+        Parameters
+        ----------
+        others : mapping of int to SurfacePoint
+            Singularities that come along, and where they come to on the shown surface.
+        """
+        trial, state = self._held, self._state
+        if trial is None:
+            return
+        moved = [MoveSingularity(trial.index, trial.held.point)]
+        moved += [
+            MoveSingularity(i, state.lifted(point))
+            for i, point in others.items()
+            if not state.singularities[i].locked
+        ]
+        self._store.update(state.let_go())
+        name = f"move {len(moved)} singularities"
+        self._do(moved[0] if len(moved) == 1 else Together(tuple(moved), name))
 
     def cancel(self) -> None:
         """Let go and put it back."""
