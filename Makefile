@@ -9,6 +9,9 @@
 # make keys   the table of case keys in README.md
 # make bench-peers  quads beside other meshers, on the same surfaces: the table of docs/quads.md (minutes)
 # make fuzz   20 000 damaged files of every format, none of which may do harm (ten minutes)
+# make dist   wheel and sdist into dist/, and their tests away from here
+# make lock   requirements-lock.txt: the versions that are installed here, which were tested
+# make bundle an application that needs no Python, by PyInstaller: dist/crossview/
 # make clean  forget the environment and every cache
 PYTHON ?= python3
 VENV := .venv
@@ -18,7 +21,7 @@ PICTURE := crossview.png
 XVFB := $(if $(filter Darwin,$(shell uname)),,xvfb-run -a -s "-screen 0 1600x1200x24")
 PIP_INSTALL := $(VENV)/bin/python -m pip install --disable-pip-version-check
 
-.PHONY: run test docs bench table study maps keys bench-peers fuzz clean
+.PHONY: run test docs bench table study maps keys bench-peers fuzz dist lock bundle clean
 
 run:
 	@sh tools/system-packages.sh window "$(PYTHON)"
@@ -69,6 +72,20 @@ bench-peers:
 fuzz:
 	@$(MAKE) --no-print-directory $(VENV)/installed
 	OPENBLAS_NUM_THREADS=1 $(VENV)/bin/python -m tools.fuzz 20000
+
+dist:
+	@sh tools/system-packages.sh test "$(PYTHON)"
+	@$(MAKE) --no-print-directory $(VENV)/bin/python
+	$(XVFB) sh tools/archives.sh "$(CURDIR)/$(VENV)/bin/python"
+
+lock:
+	@$(MAKE) --no-print-directory $(VENV)/installed-test
+	$(VENV)/bin/python tools/lock.py
+
+bundle:
+	@sh tools/system-packages.sh window "$(PYTHON)"
+	@$(MAKE) --no-print-directory $(VENV)/installed-bundle
+	$(VENV)/bin/python tools/bundle.py
 
 $(VENV)/bin/python:
 	"$(PYTHON)" -m venv $(VENV)

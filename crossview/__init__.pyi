@@ -7,6 +7,7 @@ from crossview.library import improve as improve
 from crossview.library import layout as layout
 from crossview.library import make_valid as make_valid
 from crossview.library import natural as natural
+from crossview.library import picture as picture
 from crossview.library import quads as quads
 from crossview.library import read as read
 from crossview.library import read_surface as read_surface

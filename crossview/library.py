@@ -12,7 +12,7 @@ import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from crossview.cases.gallery import find_case
 from crossview.cases.model import Builtin, Case, CaseError, check_method
@@ -32,6 +32,9 @@ from solvers.kind_checks import one_of_kind
 from solvers.layouts import QuadLayout
 from solvers.number_checks import whole_number
 from solvers.quads import MAX_CHORD, QuadMesh
+
+if TYPE_CHECKING:
+    from crossview.export.notebook import NotebookPicture
 
 Watch = Callable[[Progress], object] | None
 """What is called with each step of a long computation."""
@@ -800,6 +803,60 @@ def render(
 
     _require_together(solution, layout, quads)
     return draw(solution, _path("figure", path), layout=layout, quads=quads, **how)
+
+
+def picture(
+    solution: Solution,
+    *,
+    layers: Sequence[str] | None = None,
+    layout: QuadLayout | None = None,
+    quads: QuadMesh | None = None,
+    camera: str = "auto",
+    height: int = 480,
+) -> NotebookPicture:
+    """Return a picture of a solution that turns in a Jupyter notebook.
+
+    Parameters
+    ----------
+    solution : Solution
+        What to draw.
+    layers : sequence of str, optional
+        Names of the layers drawn, as of `render`.
+    layout : QuadLayout, optional
+        For the layer layout, and for separatrices that are exact.
+    quads : QuadMesh, optional
+        For the layer quads.
+    camera : str, optional
+        From where it is seen at first, as of `render`.
+    height : int, optional
+        Pixels.
+
+    Returns
+    -------
+    NotebookPicture
+        As the last value of a cell it is shown.
+
+    Raises
+    ------
+    CrossviewError
+        A layer or the camera is unknown.
+
+    Examples
+    --------
+    >>> import crossview
+    >>> solution = crossview.solve(crossview.read("disk-4"))
+    >>> crossview.picture(solution, layers=["H", "singularities"])  # doctest: +ELLIPSIS
+    <picture of ... bytes>
+    """
+    # VTK is loaded when it is wanted
+    from crossview.export.figures import solution_view
+    from crossview.export.notebook import NotebookPicture
+    from crossview.export.web import web_page
+
+    _require_together(solution, layout, quads)
+    height = whole_number("height", height, 16)
+    view = solution_view(solution, layers=layers, layout=layout, quads=quads)
+    return NotebookPicture(web_page(view, (4 * height // 3, height), camera), height)
 
 
 MADE_BY: dict[type, str] = {

@@ -5,9 +5,15 @@ import re
 import subprocess
 import sys
 import tomllib
+from fnmatch import fnmatch
 from importlib.resources import files
 from pathlib import Path
 
+import pytest
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+
+import crossview
 from tests.real_surfaces import DATA, KNOWN
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -72,3 +78,84 @@ def test_the_citation_names_this_version() -> None:
     citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8").splitlines()
     for key in ("version", "license"):
         assert f"{key}: {project[key]}" in citation
+
+
+def test_the_lock_file_has_every_dependency_in_a_version_that_is_allowed() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    lines = (ROOT / "requirements-lock.txt").read_text(encoding="utf-8").splitlines()
+    locked = dict(line.split("==") for line in lines if not line.startswith("#"))
+    versions = {canonicalize_name(name): version for name, version in locked.items()}
+    for need in map(
+        Requirement, project["dependencies"] + project["optional-dependencies"]["test"]
+    ):
+        if need.marker is None or need.marker.evaluate({"python_version": "3.11"}):
+            assert versions[canonicalize_name(need.name)] in need.specifier
+
+
+def test_the_archive_holds_what_is_under_version_control() -> None:
+    listed = subprocess.run(
+        ["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    if listed.returncode:
+        pytest.skip("not under version control here")
+    rules = [line.split() for line in (ROOT / "MANIFEST.in").read_text("utf-8").splitlines()]
+    taken = {"crossview", "solvers", *(rule[1] for rule in rules if rule[:1] == ["graft"])}
+    patterns = next(rule[1:] for rule in rules if rule[:1] == ["include"])
+    modules = {"pyproject.toml", "crossview_program.py", "LICENSE"}
+    for name in listed.stdout.splitlines():
+        top, _, below = name.partition("/")
+        if below:
+            assert top in taken, name
+        else:
+            assert name in modules or any(fnmatch(name, each) for each in patterns), name
+
+
+ELSEWHERE = """
+import importlib, pkgutil, sys
+sys.modules |= dict.fromkeys(["fcntl", "resource", "pwd", "grp", "termios"])
+import crossview, solvers
+for package in (crossview, solvers):
+    for module in pkgutil.walk_packages(package.__path__, package.__name__ + "."):
+        if module.name not in ("crossview.__main__", "crossview.studies.child"):
+            importlib.import_module(module.name)
+"""
+
+
+def test_all_is_imported_on_a_system_that_is_not_posix() -> None:
+    ran = subprocess.run(
+        [sys.executable, "-c", ELSEWHERE], capture_output=True, text=True, check=False
+    )
+    assert (ran.returncode, ran.stderr) == (0, "")
+
+
+def test_python_runs_the_package_as_the_command(tmp_path: Path) -> None:
+    ran = subprocess.run(
+        [sys.executable, "-P", "-m", "crossview", "--version"],
+        cwd=tmp_path, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert (ran.returncode, ran.stdout.strip()) == (0, crossview.__version__)
+    wrong = subprocess.run(
+        [sys.executable, "-P", "-m", "crossview", "info", "nothing"],
+        cwd=tmp_path, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert (wrong.returncode, wrong.stderr.count("\n")) == (2, 1)
+
+
+BUNDLED = """
+import sys
+sys.frozen = True
+from crossview_program import main
+sys.exit(main())
+"""
+
+
+def test_a_bundle_is_its_own_python(tmp_path: Path) -> None:
+    """VTK's formats are read, and cases of a study worked on, in processes of their own."""
+    script = tmp_path / "script.py"
+    script.write_text("import sys; print(__name__, *sys.argv[1:])")
+    for program in (["-c", script.read_text()], [str(script)]):
+        ran = subprocess.run(
+            [sys.executable, "-c", BUNDLED, "-P", *program, "a", "b"],
+            capture_output=True, text=True, check=False,
+        )  # fmt: skip
+        assert (ran.returncode, ran.stdout) == (0, "__main__ a b\n"), ran.stderr

@@ -50,6 +50,7 @@ fi
 if [ "$purpose" = test ]; then
     need_command Xvfb xvfb
     need_command xauth xauth
+    need_command desktop-file-validate desktop-file-utils
 fi
 
 [ -n "$missing" ] || exit 0

@@ -15,7 +15,7 @@ from typing import Any
 from crossview.cases.json_values import CaseError
 from crossview.cases.model import Case
 
-FIGURES = (".png", ".svg", ".pdf")
+FIGURES = (".png", ".svg", ".pdf", ".html")
 """Endings of files that figures are written to."""
 
 _FOUND = re.compile(rb"crossview-case:([A-Za-z0-9+/=]+):")

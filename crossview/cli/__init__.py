@@ -39,6 +39,7 @@ for module, name in (
     ("solve", "solve"),
     ("check", "check"),
     ("render", "render"),
+    ("animate", "animate"),
     ("gallery", "gallery"),
     ("natural", "natural"),
     ("complete", "complete"),

@@ -6,11 +6,19 @@ import ctypes
 import os
 import sys
 from importlib.util import find_spec
+from typing import Annotated
+
+from cyclopts import Parameter
 
 from solvers.errors import CrossviewError
 
 
-def window(file: str | None = None, /) -> int:
+def window(
+    file: str | None = None,
+    /,
+    *,
+    install_desktop: Annotated[bool, Parameter(negative="", show_default=False)] = False,
+) -> int:
     """Impose singularities on a surface, solve its cross-field, and see whether it is valid.
 
     Opens the window; the commands do the same without one.
@@ -19,7 +27,15 @@ def window(file: str | None = None, /) -> int:
     ----------
     file
         A surface, a case, or the name of a gallery case.
+    install_desktop
+        Open no window; put the program among the applications of the desktop (Linux), with its
+        icon and case files named NAME.crossview.json.
     """
+    if install_desktop:
+        from crossview.cli.desktop import install_desktop as install
+
+        install()
+        return 0
     if file is not None:
         from crossview.cases.gallery import find_case
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 
@@ -73,6 +73,40 @@ def picture(
     if image.mode == "RGBA":
         return image.convert("RGBa").reduce(fine).convert("RGBA")
     return image.reduce(fine)
+
+
+def shots(
+    shown: Iterable[tuple[SceneView, Camera]], size: tuple[int, int]
+) -> Iterator[Image.Image]:
+    """Draw views, each with its camera; the scene is kept from one to the next.
+
+    Parameters
+    ----------
+    shown : iterable of (SceneView, Camera)
+    size : (int, int)
+        Pixels.
+    """
+    width, height = check_size(size, 1.0)
+    fine = _supersampling(width, height)
+    ratio = fine * pixel_ratio(size)
+    with _staged_scene(fine * width, fine * height, ratio, True) as (plotter, scene):
+        plotter.ren_win.SetMultiSamples(_MULTI_SAMPLES)
+        for view, camera in shown:
+            scene.show(view)
+            scene.fit(camera)
+            plotter.ren_win.Render()  # a screenshot alone would be the last frame again
+            yield Image.fromarray(plotter.screenshot(return_img=True)).reduce(fine)
+
+
+def side_by_side(images: Sequence[Image.Image]) -> Image.Image:
+    """Return one image of several of one size."""
+    if len(images) == 1:
+        return images[0]
+    width, height = images[0].size
+    whole = Image.new(images[0].mode, (len(images) * width, height))
+    for number, image in enumerate(images):
+        whole.paste(image, (number * width, 0))
+    return whole
 
 
 @dataclass(frozen=True, eq=False)

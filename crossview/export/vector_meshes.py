@@ -1,10 +1,10 @@
-"""Separatrices, marks, layouts and quads as vectors on a sheet."""
+"""Separatrices, marks, layouts and quads as vectors on a on."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from crossview.export.sheet import Sheet
+from crossview.export.easel import Easel
 from crossview.scene import SceneView
 from crossview.scene.marks import INKS, MARK_SIZE, RIM, STROKES, marks_of
 from crossview.scene.quads import irregular_radius
@@ -16,7 +16,7 @@ from crossview.view.quad_geometry import QuadGeometry
 from crossview.view.style import TOWARDS, WIDTH
 
 
-def draw_quads(sheet: Sheet, view: SceneView, triangles: Triangles) -> None:
+def draw_quads(on: Easel, view: SceneView, triangles: Triangles) -> None:
     """Draw edges and irregular vertices of quads, or borders of patches."""
     cover = view.cover
     mesh = {"quads": view.quads, "layout": view.layout}.get(cover)
@@ -27,32 +27,32 @@ def draw_quads(sheet: Sheet, view: SceneView, triangles: Triangles) -> None:
     edges = geometry.edges if cover == "quads" else geometry.borders
     if settings.edges:
         width, towards = WIDTH[cover] * settings.size, TOWARDS["layout borders"]
-        sheet.lines(mesh.points[edges], ink, width, towards, round_ends=True)
+        on.lines(mesh.points[edges], ink, width, towards, round_ends=True)
     if cover == "quads" and len(mesh.irregular):
         colors = [(*DISC_PAINTS, valence_color(int(n))) for n in mesh.valences]
         radius = irregular_radius(view, triangles)
-        sheet.discs(mesh.irregular, radius, TOWARDS["irregular"], colors, DISC_PARTS)
+        on.discs(mesh.irregular, radius, TOWARDS["irregular"], colors, DISC_PARTS)
 
 
-def draw_separatrices(sheet: Sheet, view: SceneView) -> None:
+def draw_separatrices(on: Easel, view: SceneView) -> None:
     """Draw separatrices, each with a light rim."""
     settings, curves = view.layer("separatrices"), view.separatrices
     if not settings.visible or curves is None:
         return
     segments, valences = curves.points[curves.segments], curves.segment_valences
     width, towards = WIDTH["separatrices halo"] * settings.size, curve_height(view, "separatrices")
-    sheet.lines(segments, CUT_HALO, width, towards, settings.opacity, round_ends=True)
+    on.lines(segments, CUT_HALO, width, towards, settings.opacity, round_ends=True)
     for valence in np.unique(valences):
         color, width = separatrix_color(int(valence)), WIDTH["separatrices"] * settings.size
         chosen = segments[valences == valence]
-        sheet.lines(chosen, color, width, towards, settings.opacity, round_ends=True)
+        on.lines(chosen, color, width, towards, settings.opacity, round_ends=True)
 
 
-def draw_marks(sheet: Sheet, view: SceneView) -> None:
+def draw_marks(on: Easel, view: SceneView) -> None:
     """Draw the T and ! marks."""
     settings = view.layer("marks")
     for letter, places in marks_of(view).items():
         if settings.visible and places is not None and len(places):
             diameter, towards = MARK_SIZE * settings.size, TOWARDS[f"{letter} marks"]
             paints = (INKS[letter], MARK_PAPER)
-            sheet.signs(places, diameter, towards, STROKES[letter], paints, RIM)
+            on.signs(places, diameter, towards, STROKES[letter], paints, RIM)

@@ -18,6 +18,7 @@ def application() -> QApplication:
     app = present if isinstance(present, QApplication) else QApplication(sys.argv[:1])
     app.setOrganizationName("crossview")
     app.setApplicationName("crossview")
+    app.setDesktopFileName("crossview")
     app.setWindowIcon(icon("crossview"))
     return app
 

@@ -23,7 +23,12 @@ from crossview.session.state import SessionState
 CASES = {PROJECT: "Project, with layers, camera and ranges", ".json": "Case"}
 """Words for the suffixes that a document is saved with."""
 
-FIGURES = {".png": "PNG picture", ".svg": "SVG drawing", ".pdf": "PDF drawing"}
+FIGURES = {
+    ".png": "PNG picture",
+    ".svg": "SVG drawing",
+    ".pdf": "PDF drawing",
+    ".html": "Page that turns",
+}
 """Words for suffixes of figures."""
 
 MESHES = {

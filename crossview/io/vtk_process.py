@@ -11,6 +11,7 @@ It writes a line of JSON, {"points": n, "polygons": m, "corners": k, "notes": [.
 
 from __future__ import annotations
 
+import contextlib
 import json
 import re
 import sys
@@ -52,7 +53,8 @@ def limit(memory: int, seconds: int) -> None:
     ):
         hard = resource.getrlimit(what)[1]  # another limit, which may be lower, is kept
         least = most if hard == resource.RLIM_INFINITY else min(most, hard)
-        resource.setrlimit(what, (least, hard))
+        with contextlib.suppress(ValueError):  # macOS has a limit of addresses and refuses it
+            resource.setrlimit(what, (least, hard))
 
 
 def surface(reader: Any, path: str) -> tuple[list[npt.NDArray[Any]], list[str]]:

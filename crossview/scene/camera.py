@@ -12,7 +12,7 @@ from crossview.view.geometry import FloatArray, Triangles
 from solvers.errors import CrossviewError
 from solvers.number_checks import LARGEST
 
-_VIEW_ANGLE = 24.0
+VIEW_ANGLE = 24.0
 """From the bottom of the view to its top, degrees. Chosen: little perspective."""
 
 _LYING = 0.35
@@ -82,7 +82,7 @@ class Camera:
     def other_projection(self) -> Camera:
         """Perspective in place of a parallel view, or back; what is at the focus keeps its size."""
         away = np.subtract(self.position, self.focus)
-        tan = np.tan(np.radians(_VIEW_ANGLE) / 2.0)
+        tan = np.tan(np.radians(VIEW_ANGLE) / 2.0)
         if self.parallel_scale is None:
             return replace(self, parallel_scale=float(np.linalg.norm(away) * tan))
         away = away / np.linalg.norm(away) * (self.parallel_scale / tan)
@@ -91,7 +91,7 @@ class Camera:
 
     def facing(self, place: FloatArray, normal: FloatArray, height: float) -> Camera:
         """Look at a place along the normal there, at so much around it from top to bottom."""
-        tan = np.tan(np.radians(_VIEW_ANGLE) / 2.0)
+        tan = np.tan(np.radians(VIEW_ANGLE) / 2.0)
         away = np.asarray(normal) * (0.5 * height / tan)
         up = np.asarray(self.up)
         if np.linalg.norm(np.cross(up, away)) < 0.1 * np.linalg.norm(away) * np.linalg.norm(up):
@@ -109,7 +109,7 @@ class Camera:
         camera.SetFocalPoint(*self.focus)
         camera.SetViewUp(*self.up)
         camera.SetWindowCenter(*self.centre)
-        camera.SetViewAngle(_VIEW_ANGLE)
+        camera.SetViewAngle(VIEW_ANGLE)
         camera.SetParallelProjection(self.parallel_scale is not None)
         if self.parallel_scale is not None:
             camera.SetParallelScale(self.parallel_scale)
@@ -212,7 +212,7 @@ def _fit(points: FloatArray, away: FloatArray, up: FloatArray, room: Room) -> Ca
     frame = _frame(away, up)
     origin = points.mean(axis=0)
     seen = (points - origin) @ frame.T
-    tan = np.tan(np.radians(_VIEW_ANGLE) / 2.0)
+    tan = np.tan(np.radians(VIEW_ANGLE) / 2.0)
     # The free part as slopes from the eye: centre and half size, per direction.
     half = np.array([tan * room.width / room.height, tan])
     free = _free(room)

@@ -34,7 +34,7 @@ from crossview.view.geometry import FloatArray, IntArray, Triangles
 from crossview.view.scalars import quality_limits, shown_scalar
 from crossview.view.scene_view import SceneView
 
-_LIGHT = (-0.3, 0.4, 1.0)
+LIGHT = (-0.3, 0.4, 1.0)
 """Where the light is in the camera's frame: left of the eye, above and behind it. Chosen."""
 
 
@@ -169,23 +169,32 @@ class Scene:
         if self._bar is not None:
             self._bar.remove()
 
-    def _right_room(self, all_texts: bool) -> float:
-        shown = shown_scalar(self._view)
-        room = bar_room(shown) if shown else BAR_ROOM if all_texts else MARGIN
-        return room * self._ratio
-
     def _room(self, all_texts: bool) -> Room:
-        width, height = self._plotter.window_size
-        margin = MARGIN * self._ratio
-        view = self._view
-        return Room(
-            width,
-            height,
-            left=margin,
-            right=self._right_room(all_texts),
-            top=2.2 * margin if view.title else margin,
-            bottom=LEGEND_ROOM * self._ratio if all_texts or view.singularities else margin,
-        )
+        return room_for(self._view, self._plotter.window_size, self._ratio, all_texts)
+
+
+def room_for(view: SceneView, size: tuple[int, int], ratio: float, all_texts: bool = False) -> Room:
+    """Return what the texts of a view leave free of a picture.
+
+    Parameters
+    ----------
+    view : SceneView
+    size : (int, int)
+        Of the picture, pixels.
+    ratio : float
+        Pixels of the picture per pixel of the window.
+    all_texts : bool
+        Keep room also for texts that are not shown yet.
+    """
+    shown = shown_scalar(view)
+    right = bar_room(shown) if shown else BAR_ROOM if all_texts else MARGIN
+    return Room(
+        *size,
+        left=MARGIN * ratio,
+        right=right * ratio,
+        top=(2.2 if view.title else 1.0) * MARGIN * ratio,
+        bottom=(LEGEND_ROOM if all_texts or view.singularities else MARGIN) * ratio,
+    )
 
 
 def _light(plotter: pv.BasePlotter) -> None:
@@ -194,9 +203,9 @@ def _light(plotter: pv.BasePlotter) -> None:
     What faces the eye is lit by exactly 1: a planar figure shows its colours as they are.
     """
     plotter.remove_all_lights()
-    facing = _LIGHT[2] / float(np.linalg.norm(_LIGHT))
+    facing = LIGHT[2] / float(np.linalg.norm(LIGHT))
     light = pv.Light(light_type="camera light", intensity=1.0 / facing)
-    light.position = _LIGHT
+    light.position = LIGHT
     plotter.add_light(light)
 
 

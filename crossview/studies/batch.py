@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections import Counter
 from collections.abc import Callable, Generator, Iterable, Iterator
@@ -63,6 +64,8 @@ def batch(
     CrossviewError
         The study cannot be begun, or the folder cannot be written.
     """
+    if os.name != "posix":  # its processes are given a pipe by number, and bound by the system
+        raise CrossviewError("no batch runs on this system", os.name, "use Linux or macOS")
     if scheduler is None:
         crew = cores() if workers is None else workers
         if limits.gigabytes is None:

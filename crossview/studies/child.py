@@ -27,7 +27,8 @@ def main() -> None:
             match connection.recv():
                 case MemoryLimit(bytes=most):
                     most += _reserved()
-                    resource.setrlimit(resource.RLIMIT_DATA, (most, most))
+                    with contextlib.suppress(ValueError):  # macOS refuses what is held already
+                        resource.setrlimit(resource.RLIMIT_DATA, (most, most))
                 case Parcel() as parcel:
                     places[parcel.digest] = str(parcel.unpack(folder))
                 case Job(task, home, digests):

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import fcntl
 import json
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 from crossview.io.staged_files import staged, unwritable
 from crossview.studies.limits import Limits
@@ -70,7 +69,7 @@ class Ledger:
         self.folder = folder
         self._file = (folder / LINES).open("a+b")
         try:
-            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            _lock(self._file)
         except OSError as error:
             self._file.close()
             raise CrossviewError(
@@ -163,3 +162,10 @@ def ledger(folder: Path) -> Iterator[Ledger]:
         yield opened
     finally:
         opened.close()
+
+
+def _lock(file: BinaryIO) -> None:
+    """Keep a file to this process; OSError if another has it. Elsewhere than here no batch runs."""
+    import fcntl
+
+    fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)

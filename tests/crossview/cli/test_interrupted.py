@@ -10,10 +10,18 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[3]
 
+COMMAND = "from crossview_program import main"
+MODULE = """
+import runpy
+from functools import partial
+
+main = partial(runpy.run_module, "crossview", run_name="__main__", alter_sys=True)
+"""
+
 PROGRAM = """
 import os, sys
 sys.path.insert(0, sys.argv.pop(1))
-from crossview_program import main
+exec(sys.argv.pop(1))
 
 kind, counted, left = sys.argv.pop(1), sys.argv.pop(1), int(sys.argv.pop(1))
 
@@ -30,25 +38,27 @@ sys.exit(main())
 
 
 @pytest.mark.parametrize(
-    ("kind", "event", "number"),
+    ("program", "kind", "event", "number"),
     [
-        (signal.SIGINT, "import", 1),
-        (signal.SIGTERM, "import", 100),
-        (signal.SIGINT, "import", 1000),
-        (signal.SIGTERM, "open", 300),
-        (signal.SIGINT, "os.mkdir", 1),
-        (signal.SIGTERM, "os.mkdir", 2),
-        (signal.SIGINT, "os.rename", 1),
-        (signal.SIGTERM, "os.rmdir", 1),
+        (COMMAND, signal.SIGINT, "import", 1),
+        (COMMAND, signal.SIGTERM, "import", 100),
+        (COMMAND, signal.SIGINT, "import", 1000),
+        (COMMAND, signal.SIGTERM, "open", 300),
+        (COMMAND, signal.SIGINT, "os.mkdir", 1),
+        (COMMAND, signal.SIGTERM, "os.mkdir", 2),
+        (COMMAND, signal.SIGINT, "os.rename", 1),
+        (COMMAND, signal.SIGTERM, "os.rmdir", 1),
+        (MODULE, signal.SIGINT, "import", 1000),
+        (MODULE, signal.SIGTERM, "os.mkdir", 1),
     ],
 )
 def test_it_ends_in_one_line_and_leaves_nothing(
-    kind: signal.Signals, event: str, number: int, tmp_path: Path
+    program: str, kind: signal.Signals, event: str, number: int, tmp_path: Path
 ) -> None:
     """The signal comes with the given import, opened file or change of a folder."""
     ran = subprocess.run(
         [
-            *(sys.executable, "-c", PROGRAM, ROOT, str(int(kind)), event, str(number)),
+            *(sys.executable, "-c", PROGRAM, ROOT, program, str(int(kind)), event, str(number)),
             *("solve", "disk-4", "-o", "out", "--quiet"),
         ],
         cwd=tmp_path,

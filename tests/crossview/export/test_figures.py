@@ -10,12 +10,14 @@ import pytest
 from PIL import Image
 
 from crossview.cases.model import Case
+from crossview.cases.pictured import Pictured
 from crossview.export.figures import render, render_view
 from crossview.scene import Marker, field_view
 from crossview.view.colors import CUT, valence_color
 from crossview.workflow.pipeline import Solution, solve_case
 from solvers.errors import CrossviewError
 from solvers.progress import run
+from tests.command_line import Crossview
 
 SIZE = (400, 300)
 
@@ -139,3 +141,56 @@ def test_mistakes_are_told_in_one_line_and_nothing_is_written(
         render(solution, tmp_path / name, **options)
     assert "\n" not in str(caught.value)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_figures_side_by_side_have_one_camera_and_one_range(
+    crossview: Crossview, tmp_path: Path
+) -> None:
+    options = ["--layers", "H,singularities", "--size", "240x180"]
+    both = crossview("render", "disk-4", "teaser-c", "-o", tmp_path / "both.png", *options)
+    assert (both.status, both.err) == (0, "")
+    whole = np.asarray(Image.open(tmp_path / "both.png").convert("RGB"), float)
+    assert whole.shape == (180, 480, 3)
+    # the colour bars are the same, though the one alone has another range
+    left, right = whole[60:170, 200:240], whole[60:170, 440:480]
+    assert np.abs(left - right).max() < 2
+    drawn = crossview("render", "disk-4", "teaser-c", "-o", tmp_path / "both.svg", *options)
+    assert drawn.status == 0
+    text = (tmp_path / "both.svg").read_text()
+    assert text.count("<image") == 2
+    assert Pictured.load(tmp_path / "both.svg").case.title == "Disk: four valence 3"
+    page = crossview("render", "disk-4", "teaser-c", "-o", tmp_path / "both.html", *options)
+    assert (page.status, page.err.count("\n")) == (2, 1)
+
+
+def test_the_command_draws_layers_as_they_are_set(crossview: Crossview, tmp_path: Path) -> None:
+    options = ["--layers", "H,boundary", "--size", "160x120", "--set", "H.opacity=0", "--dpi", 200]
+    dark = ["--background", "dark"]
+    ran = crossview("render", "disk-4", "-o", tmp_path / "a.png", *options, *dark)
+    assert (ran.status, ran.err) == (0, "")
+    with Image.open(tmp_path / "a.png") as image:
+        assert round(image.info["dpi"][0]) == 200
+        pixels = np.asarray(image.convert("RGB"))
+    assert tuple(pixels[0, 0]) == (0x1D, 0x20, 0x26)
+    assert np.ptp(pixels[60, 70].astype(int)) < 8  # grey, where H is not laid on
+
+
+@pytest.mark.parametrize(
+    ("word", "said"),
+    [
+        ("crosses", 'no setting "crosses"'),
+        ("cross.size=2", 'no layer "cross"'),
+        ("axes.size=2", "it has none"),
+        ("H.color_map=jet", 'unknown "jet"'),
+        ("H.value_range=1", "a list of 2 numbers"),
+        ("H.value_range=2:1", "begins with its lower end"),
+        ("crosses.size=big", "a number above 0"),
+        ("surface.edges=maybe", "true or false"),
+    ],
+)
+def test_a_setting_that_is_none_is_told(
+    crossview: Crossview, tmp_path: Path, word: str, said: str
+) -> None:
+    ran = crossview("render", "disk-4", "-o", tmp_path / "a.png", "--set", word)
+    assert (ran.status, ran.err.count("\n")) == (2, 1)
+    assert said in ran.err
