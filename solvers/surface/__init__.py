@@ -11,6 +11,7 @@ from solvers.surface.points import SurfacePoint
 from solvers.surface.refinement import LEVELS, Refinement, refine_at, refine_everywhere
 from solvers.surface.sectors import corner_sectors
 from solvers.surface.shaping import parted, shaped
+from solvers.surface.shortest import shortest_path
 from solvers.surface.symmetries import Isometry, isometries
 from solvers.surface.triangulation import (
     QUARTER,
@@ -53,5 +54,6 @@ __all__ = [
     "refine_at",
     "refine_everywhere",
     "shaped",
+    "shortest_path",
     "straightest",
 ]
