@@ -386,6 +386,12 @@ ACTIONS: tuple[ActionSpec, ...] = (
         enabled=_open,
     ),
     ActionSpec(
+        "measure", "Measure", "View", lambda w: w.session.measuring.take_tool(), ("D",),
+        tip="Two clicks measure a distance, along the surface and straight; a third the angle at "
+        "the second. A click on a singularity is one at its place",
+        enabled=_open, checked=lambda s: s.measure_tool is not None, separated=True,
+    ),
+    ActionSpec(
         "copy-camera", "Copy camera", "View", lambda w: w.copy_camera(), ("Ctrl+Shift+C",),
         tip="As text for the command line, a script or another window", enabled=_open,
         separated=True,

@@ -94,7 +94,8 @@ class Mouse(QObject):
     def _press(self, event: QMouseEvent) -> bool:
         self._pressed_at, self._moved = event.position(), False
         if event.button() == Qt.MouseButton.LeftButton:
-            index = self._viewport.singularity_at(event.position())
+            measures = self._session.state.measure_tool is not None
+            index = None if measures else self._viewport.singularity_at(event.position())
             if index is not None and event.type() == QEvent.Type.MouseButtonDblClick:
                 self.edit_wanted.emit(index)
             self._grip = _Grip.CAMERA if index is None else _Grip.SINGULARITY
@@ -164,6 +165,12 @@ class Mouse(QObject):
         if state.mark_tool is not None:
             if pick is not None:
                 self._session.feature_marks.click(pick.point, self._onwards)
+        elif state.measure_tool is not None:
+            over = self._viewport.singularity_at(place)
+            if over is not None:
+                self._session.measuring.click(state.singularities[over].point)
+            elif pick is not None:
+                self._session.measuring.click(state.lifted(pick.point))
         elif pick is not None and state.added_valence is not None:
             self._session.edits.add(pick.point, state.added_valence)
         else:

@@ -23,6 +23,7 @@ from crossview.scene.legend import (
     bar_room,
 )
 from crossview.scene.marks import MarksLayer
+from crossview.scene.measure import MeasureLayer
 from crossview.scene.problems import ProblemLayer
 from crossview.scene.quads import QuadsLayer
 from crossview.scene.separatrices import SeparatricesLayer
@@ -90,7 +91,7 @@ class Scene:
             ProblemLayer,
         )
         if texts:
-            kinds += (TitleLayer, ValenceLegendLayer, AxesLayer)
+            kinds += (MeasureLayer, TitleLayer, ValenceLegendLayer, AxesLayer)
         self._layers: tuple[Layer, ...] = (
             self._surface,
             *(kind(plotter, pixel_ratio) for kind in kinds),

@@ -14,6 +14,7 @@ from crossview.session.hand import (
     FeatureTrial,
     Focus,
     MarkTool,
+    MeasureTool,
     SelectTool,
     Tool,
     Trial,
@@ -58,7 +59,7 @@ class Facts:
         What is shown of a field.
     uncompared : frozenset of str or None
         While the error density of `start` is shown: the scalars that were visible before.
-    tool : SelectTool, AddTool or MarkTool
+    tool : SelectTool, AddTool, MarkTool or MeasureTool
         What a click does.
     any_valence : int
         What the tool "any valence" carries.
@@ -183,6 +184,11 @@ class Facts:
     def mark_tool(self) -> MarkTool | None:
         """The tool that marks edges, if it is in hand."""
         return self.tool if isinstance(self.tool, MarkTool) else None
+
+    @property
+    def measure_tool(self) -> MeasureTool | None:
+        """The tool that measures, if it is in hand."""
+        return self.tool if isinstance(self.tool, MeasureTool) else None
 
     @property
     def singularities(self) -> tuple[Singularity, ...]:

@@ -8,7 +8,7 @@ from crossview.session.live import LiveEdit
 from crossview.workflow.marking import Marking
 from solvers.features import Features
 from solvers.singularities import Singularity
-from solvers.surface import IntArray, SurfacePoint, TriSurface
+from solvers.surface import FloatArray, IntArray, SurfacePoint, TriSurface
 
 OWN_TOOLS = (3, 5, 6, 8)
 """Valences that have a tool of their own; of all others there is one."""
@@ -42,7 +42,23 @@ class MarkTool:
     path: IntArray | None = None
 
 
-Tool = SelectTool | AddTool | MarkTool
+@dataclass(frozen=True, eq=False)
+class MeasureTool:
+    """Clicks measure: the second the distance from the first, the third the angle at the second.
+
+    Parameters
+    ----------
+    places : tuple of SurfacePoint
+        Where it was clicked, on the document's surface; three at most.
+    paths : tuple of (k, 3) float array
+        Shortest paths from each to the next, as far as they are found.
+    """
+
+    places: tuple[SurfacePoint, ...] = ()
+    paths: tuple[FloatArray, ...] = ()
+
+
+Tool = SelectTool | AddTool | MarkTool | MeasureTool
 
 
 @dataclass(frozen=True)

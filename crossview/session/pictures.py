@@ -17,7 +17,8 @@ from crossview.view.field import feature_lines, field_view, markers_of
 from crossview.view.meshes import curves_of, patches_of, quads_of, t_junctions_of, worst_of
 from crossview.view.scalars import SURFACE_SCALARS
 from crossview.view.scene_view import Background, LayerSettings, SceneView
-from crossview.view.values import Elements, Marker
+from crossview.view.texts import measured
+from crossview.view.values import Elements, Marker, Measurement
 from solvers.fields import CrossField
 from solvers.surface import IntArray, TriSurface
 
@@ -68,6 +69,7 @@ def scene_view(state: SessionState, held: Ranges = NO_RANGES) -> SceneView:
         loop=_loop(state),
         loop_color="" if condition is None else condition_color(condition),
         guide=state.guide,
+        measurement=_measurement(state, document.surface),
         problem=Elements(faces=poor_faces(surface)) if state.poor else state.pointed,
         title=_title(state, document),
         background=background,
@@ -119,6 +121,14 @@ def _preview(state: SessionState, surface: TriSurface) -> Marker | None:
         return None
     (marker,) = markers_of(surface, [replace(trial.held, point=trial.placed)])
     return marker
+
+
+def _measurement(state: SessionState, surface: TriSurface) -> Measurement | None:
+    tool = state.measure_tool
+    if tool is None:
+        return None
+    places = surface.positions(tool.places).reshape(-1, 3)
+    return Measurement(places, tool.paths, measured(places, tool.paths))
 
 
 def _loop(state: SessionState) -> IntArray | None:

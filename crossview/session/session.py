@@ -16,6 +16,7 @@ from crossview.session.verbs.edits import Edits
 from crossview.session.verbs.feature_marks import FeatureMarks
 from crossview.session.verbs.guide_lines import GuideLines
 from crossview.session.verbs.looks import Looks
+from crossview.session.verbs.measuring import Measuring
 from crossview.session.verbs.moves import Moves
 from crossview.session.verbs.pairs import Pairs
 from crossview.session.verbs.pointer import Pointer
@@ -53,15 +54,17 @@ class Session(Store):
         self.feature_marks = FeatureMarks(self, self.solving, self.edits.do)
         self.quad_making = QuadMaking(self, self.solving)
         self.guide_lines = GuideLines(self, loop)
+        self.measuring = Measuring(self, loop)
 
     @property
     def busy(self) -> bool:
         """Whether an answer of the background is still awaited."""
-        return self.solving.busy or self.guide_lines.busy
+        return self.solving.busy or self.guide_lines.busy or self.measuring.busy
 
     def close(self) -> None:
         """End the background threads."""
         self.guide_lines.close()
+        self.measuring.close()
         self.solving.close()
 
     def open(self, opening: Opening) -> None:

@@ -15,6 +15,7 @@ from crossview.session.hand import (
     AddTool,
     Focus,
     MarkTool,
+    MeasureTool,
     SelectTool,
     Tool,
     Trial,
@@ -54,7 +55,7 @@ class SessionState(Facts):
         before = None if self.document is None else self.document.surface
         if document.surface is not before:
             shown = Nothing()
-            tool = SelectTool() if isinstance(tool, MarkTool) else tool
+            tool = SelectTool() if isinstance(tool, MarkTool | MeasureTool) else tool
         else:
             had = () if self.document is None else self.document.singularities
             focus = self.focus.among(len(had), len(document.singularities))

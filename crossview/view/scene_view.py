@@ -17,6 +17,7 @@ from crossview.view.values import (
     GuideLine,
     IntArray,
     Marker,
+    Measurement,
     Polylines,
     Quads,
 )
@@ -220,6 +221,7 @@ class SceneView:
         Empty for its own.
     guide : tuple of GuideLine
         Where the singularity under the mouse may go.
+    measurement : Measurement, optional
     problem : Elements, optional
         Offending elements to point out.
     separatrices : Polylines, optional
@@ -256,6 +258,7 @@ class SceneView:
     loop: IntArray | None = None
     loop_color: str = ""
     guide: tuple[GuideLine, ...] = ()
+    measurement: Measurement | None = None
     problem: Elements | None = None
     separatrices: Polylines | None = None
     t_junctions: FloatArray | None = None

@@ -18,6 +18,8 @@ WIDTH = {
     "guide halo": 4.0,
     "strong guide": 5.0,
     "strong guide halo": 8.0,
+    "measure": 3.0,
+    "measure halo": 6.0,
     "problem": 3.0,
 }
 """Of lines, in pixels of the window. Chosen."""
@@ -41,6 +43,9 @@ TOWARDS = {
     "guide": 107.0,
     "strong guide halo": 110.0,
     "strong guide": 115.0,
+    "measure halo": 550.0,
+    "measure": 600.0,
+    "measure dots": 2700.0,
     "problem faces": 150.0,
     "problem lines": 600.0,
     "problem dots": 900.0,

@@ -5,6 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+import numpy as np
+
+from crossview.view.values import FloatArray
+
 THIN_SPACE = "\u2009"
 """Between groups of three digits."""
 
@@ -56,6 +60,23 @@ def energies(values: Sequence[float]) -> str:
     if len(values) == 1:
         return f"E = {energy(values[0])}"
     return f"E {energy(values[0])} → {energy(values[-1])} in {count(len(values) - 1, 'step')}"
+
+
+def measured(places: FloatArray, paths: Sequence[FloatArray]) -> str:
+    """Return what is measured between places (k, 3) along paths (n, 3), or what to do for that."""
+    if len(places) < 2:
+        where = "to" if len(places) else "from"
+        return f"Measure: click where {where}"
+    if len(paths) < len(places) - 1:
+        return "Measuring\u2026"
+    along = float(np.linalg.norm(np.diff(paths[-1], axis=0), axis=1).sum())
+    straight = math.dist(places[-2], places[-1])
+    text = f"{along:.4g} along the surface, {straight:.4g} straight"
+    if len(paths) < 2 or min(map(len, paths)) < 2:
+        return text
+    back, onward = paths[0][-2] - paths[0][-1], paths[1][1] - paths[1][0]
+    turn = math.atan2(float(np.linalg.norm(np.cross(back, onward))), float(back @ onward))
+    return f"{text}, at an angle of {degrees(math.degrees(turn))}"
 
 
 def aspect(log_aspect: float) -> str:

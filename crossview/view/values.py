@@ -85,6 +85,25 @@ class GuideLine:
 
 
 @dataclass(frozen=True, eq=False)
+class Measurement:
+    """What is being measured.
+
+    Parameters
+    ----------
+    places : (k, 3) float
+        Between which.
+    paths : tuple of (n, 3) float
+        On the surface.
+    text : str
+        What has come out.
+    """
+
+    places: FloatArray
+    paths: tuple[FloatArray, ...]
+    text: str
+
+
+@dataclass(frozen=True, eq=False)
 class Quads:
     """A mesh of quadrilaterals that is drawn in place of the triangles.
 
