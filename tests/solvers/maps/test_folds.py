@@ -14,7 +14,7 @@ from solvers.primitives import BUILTIN
 from solvers.progress import Progress, run
 from solvers.singularities.budget import Singularity
 from solvers.surface.trisurface import TriSurface
-from tests.solvers.suite import SURFACES, random_configuration
+from tests.solvers.suite import SURFACES, at_vertices, random_configuration
 
 TORUS_PLACES = [
     [-0.35, -0.53, -0.23],
@@ -60,6 +60,20 @@ def test_a_torus_folded_by_the_nearest_turns_is_upright_by_others() -> None:
     require_perfect(found)
     assert found.integrated.aligned.turns != first.integrated.aligned.turns
     assert found.integrated.field.max_log_aspect < first.integrated.field.max_log_aspect
+
+
+@pytest.mark.parametrize("seed", [8, 3])
+def test_two_handles_are_upright_by_other_turns_though_nothing_is_stretched_much(seed: int) -> None:
+    """By the nearest other turns, and by the fifth."""
+    surface = BUILTIN["genus"](handles=2, subdivisions=1)
+    places = np.random.default_rng(seed).choice(surface.n_vertices, 2, replace=False)
+    aligned = joined_field(prepare(surface, at_vertices(surface, places.tolist(), [8, 8])))
+    first = MappedField.of(run(anisotropic_field(aligned)))
+    assert first.integrated.field.max_log_aspect < 2  # a factor of less than 8
+    assert first.faults
+    found = run(unfolded(first))
+    require_perfect(found)
+    assert found.integrated.aligned.turns != first.integrated.aligned.turns
 
 
 @pytest.mark.parametrize(
