@@ -52,7 +52,8 @@ in vec3 facing;
 _NEARER = """//VTK::PositionVC::Impl
   float radius = length(facing);
   bool parallel = MCDCMatrix[0][3] == 0.0 && MCDCMatrix[1][3] == 0.0 && MCDCMatrix[2][3] == 0.0;
-  vec3 towards = parallel ? vec3(0.0, 0.0, 1.0) : normalize(-vertexVCVSOutput.xyz);
+  vec3 centre = vertexVCVSOutput.xyz - radius * (normalMatrix * normalMC);
+  vec3 towards = parallel ? vec3(0.0, 0.0, 1.0) : normalize(-centre);
   float slope = radius > 0.0 ? dot(normalMatrix * facing, towards) / radius : -1.0;
   slope = twoSided != 0 && radius > 0.0 ? abs(slope) : slope;
   if (slope > {behind}) {{
@@ -69,7 +70,8 @@ the far side is not seen at all.
 
 The surface about a place that is seen at a slant rises by the radius over the cosine; at the
 silhouette by the square root of the radius times twice that of the surface's bend, which `_MOST`
-bounds. Only the depth is moved, so nothing changes its place in the picture.
+bounds. Only the depth is moved, so nothing changes its place in the picture. All corners of a ball
+go by its centre, so that none is torn.
 """
 
 _MOST, _BEHIND = 8.0, -0.15

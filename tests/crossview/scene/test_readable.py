@@ -71,6 +71,28 @@ def test_a_disc_at_the_silhouette_is_as_whole_as_one_that_faces_the_eye(
     assert seen(-0.5 * back + 0.87 * side) == 0
 
 
+def test_about_the_silhouette_a_disc_is_shown_or_not_and_never_torn(
+    stage: Stage, near: Near
+) -> None:
+    view = ball_view(["surface", "singularities"])
+    stage.scene.show(view)
+    stage.scene.fit("iso")
+    back = np.subtract(stage.scene.camera.position, stage.scene.camera.focus)
+    back /= np.linalg.norm(back)
+    side = np.cross(back, stage.scene.camera.up)
+    side /= np.linalg.norm(side)
+    shown = []
+    for turn in np.radians(np.arange(60.0, 100.0, 1.0)):
+        x, y, z = np.cos(turn) * back + np.sin(turn) * side
+        marker = Marker((x, y, z), 3, normal=(x, y, z))
+        stage.scene.show(replace(view, singularities=(marker,)))
+        places = np.argwhere(near(stage.pixels(), valence_color(3)))
+        assert not len(places) or np.abs(places - stage.where((x, y, z))).max() < 12
+        shown.append(len(places) > 0)
+    assert shown[0]
+    assert not shown[-1]
+
+
 def test_what_faces_the_eye_behind_something_else_stays_hidden(stage: Stage, near: Near) -> None:
     surface = torus()
     stage.scene.show(SceneView(surface.vertices, surface.faces, layers=layers_named(["surface"])))
