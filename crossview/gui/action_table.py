@@ -25,6 +25,10 @@ def _open(state: SessionState) -> bool:
     return state.document is not None
 
 
+def _clipped(state: SessionState) -> bool:
+    return state.clip is not None
+
+
 def _selected(state: SessionState) -> bool:
     return state.document is not None and state.focus.selected is not None
 
@@ -384,6 +388,21 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "projection", "Perspective or parallel", "View", lambda w: w.change_projection(), ("O",),
         tip="Show in parallel what is shown in perspective, or the other way round",
         enabled=_open,
+    ),
+    ActionSpec(
+        "clip", "Clip", "View", lambda w: w.toggle_clip(), ("X",),
+        tip="Cut away the half nearer to the eye, to look inside; figures show all",
+        enabled=_open, checked=lambda s: s.clip is not None, submenu="Clip",
+    ),
+    ActionSpec(
+        "clip-less", "Clip less", "View", lambda w: w.session.looks.move_clip(1), ("PgUp",),
+        tip="Move the plane that clips towards what it cuts away", enabled=_clipped,
+        submenu="Clip",
+    ),
+    ActionSpec(
+        "clip-more", "Clip more", "View", lambda w: w.session.looks.move_clip(-1), ("PgDown",),
+        tip="Move the plane that clips away from what it cuts away", enabled=_clipped,
+        submenu="Clip",
     ),
     ActionSpec(
         "measure", "Measure", "View", lambda w: w.session.measuring.take_tool(), ("D",),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 from PySide6.QtCore import QPoint, QSize, Qt
 from PySide6.QtGui import (
     QCloseEvent,
@@ -170,6 +171,11 @@ class MainWindow(QMainWindow):
     def change_projection(self) -> None:
         """Show in perspective what is shown in parallel, or the other way round."""
         self.viewport.change_projection()
+
+    def toggle_clip(self) -> None:
+        """Cut away the half that is nearer to the eye, or show all again."""
+        camera = self.viewport.scene.camera
+        self.session.looks.toggle_clip(np.subtract(camera.position, camera.focus))
 
     def copy_camera(self) -> None:
         """Put the camera into the clipboard, as text."""

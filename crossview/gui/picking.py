@@ -11,6 +11,7 @@ from vtkmodules.vtkCommonCore import mutable
 from vtkmodules.vtkCommonDataModel import vtkStaticCellLocator
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
+from crossview.view.values import Plane
 from solvers.surface import SurfacePoint, TriSurface
 
 Place = tuple[float, float]
@@ -42,10 +43,12 @@ class Picker:
     def __init__(self, renderer: vtkRenderer) -> None:
         self._renderer = renderer
         self._surface: TriSurface | None = None
+        self._clip: Plane | None = None
         self._locator: vtkStaticCellLocator | None = None
 
-    def aim(self, surface: TriSurface | None) -> None:
-        """Pick on `surface` from now on; its locator is built when first asked."""
+    def aim(self, surface: TriSurface | None, clip: Plane | None = None) -> None:
+        """Pick on `surface`, what `clip` leaves of it; its locator is built when first asked."""
+        self._clip = clip
         if surface is not self._surface:
             self._surface = surface
             self._locator = None
@@ -55,6 +58,14 @@ class Picker:
         if self._surface is None:
             return None
         near, far = self._ray(place)
+        if self._clip is not None:
+            high, low = self._clip.before(np.array([near, far]))
+            if low > 0 and high > 0:
+                return None
+            if high > 0:  # from the plane on
+                near = (np.array(near) + high / (high - low) * np.subtract(far, near)).tolist()
+            elif low > 0:
+                far = (np.array(far) + low / (low - high) * np.subtract(near, far)).tolist()
         t, hit, corners = mutable(0.0), [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
         sub_cell, face = mutable(0), mutable(-1)
         locator = self._built(self._surface)
@@ -110,6 +121,8 @@ class Picker:
 
     def _visible(self, position: NDArray[np.float64], centre: Place, radius: float) -> bool:
         """Whether nothing is before it; a ray may slip between triangles and hit the far side."""
+        if self._clip is not None and self._clip.before(position) > 0:
+            return False
         pick = self.pick(centre)
         if pick is None:
             return True

@@ -102,7 +102,7 @@ class Viewport(QWidget):
         dragging = new.trial is not None and new.trial.drag
         if _same_picture(old, new):
             return
-        self.picker.aim(new.shown_surface)
+        self.picker.aim(new.shown_surface, new.clip)
         # One frame for the dot and its field, unless the field takes too long: frames cost more.
         if dragging and new.field is not None and new.field is old.field:
             self._rest.stop()

@@ -41,6 +41,9 @@ class WindowVerbs(Protocol):
     def change_projection(self) -> None:
         """Show in perspective what is shown in parallel, or the other way round."""
 
+    def toggle_clip(self) -> None:
+        """Cut away the half that is nearer to the eye, or show all again."""
+
     def copy_camera(self) -> None:
         """Put the camera into the clipboard, as text."""
 

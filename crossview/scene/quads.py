@@ -85,14 +85,17 @@ class QuadsLayer:
         self, view: SceneView, triangles: Triangles | None, cover: str, settings: LayerSettings
     ) -> None:
         mesh = view.quads if cover == "quads" and triangles is not None else None
-        if not self._watch.changed("dots", mesh, triangles, settings.size, view.singularities):
+        side = 0 if triangles is None or view.clip is not None else triangles.outward
+        if not self._watch.changed(
+            "dots", mesh, triangles, settings.size, view.singularities, side
+        ):
             return
         if mesh is None or triangles is None:
             self._dots.show(np.empty((0, 3)), 1.0, [], np.empty((0, 3)), 0)
             return
         radius = irregular_radius(view, triangles)
         colors = [valence_color(int(n)) for n in mesh.valences]
-        self._dots.show(mesh.irregular, radius, colors, mesh.normals, triangles.outward)
+        self._dots.show(mesh.irregular, radius, colors, mesh.normals, side)
 
 
 def irregular_radius(view: SceneView, triangles: Triangles) -> float:

@@ -7,6 +7,7 @@ from typing import Protocol
 
 import numpy as np
 import pyvista as pv
+from vtkmodules.vtkCommonDataModel import vtkPlane
 
 from crossview.scene.axes import AxesLayer
 from crossview.scene.camera import Camera, Room, camera_for
@@ -34,6 +35,7 @@ from crossview.view.colors import THEMES, rgb
 from crossview.view.geometry import FloatArray, IntArray, Triangles
 from crossview.view.scalars import quality_limits, shown_scalar
 from crossview.view.scene_view import SceneView
+from crossview.view.values import Plane
 
 LIGHT = (-0.3, 0.4, 1.0)
 """Where the light is in the camera's frame: left of the eye, above and behind it. Chosen."""
@@ -127,6 +129,8 @@ class Scene:
             self._plotter.renderer.SetBackground(*rgb(THEMES[view.background].background))
         for layer in self._layers:
             layer.show(view, self._triangles)
+        if self._watch.changed("clip", view.clip):
+            self._clip(view.clip)
         self._view = view
         if self._bar is not None:
             self._bar.show_range(view, self.limits)
@@ -169,6 +173,16 @@ class Scene:
             layer.remove()
         if self._bar is not None:
             self._bar.remove()
+
+    def _clip(self, plane: Plane | None) -> None:
+        for actor in self._plotter.renderer.GetActors():
+            mapper = actor.GetMapper()
+            mapper.RemoveAllClippingPlanes()
+            if plane is not None:
+                behind = vtkPlane()
+                behind.SetOrigin(*plane.place)
+                behind.SetNormal(*(-part for part in plane.normal))
+                mapper.AddClippingPlane(behind)
 
     def _room(self, all_texts: bool) -> Room:
         return room_for(self._view, self._plotter.window_size, self._ratio, all_texts)

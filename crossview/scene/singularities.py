@@ -76,7 +76,7 @@ def _front(view: SceneView, triangles: Triangles | None) -> int:
     surface = view.layer("surface")
     drawn = surface.visible or shown_scalar(view)
     solid = view.cover or (drawn and surface.opacity == 1.0)
-    return triangles.outward if triangles is not None and solid else 0
+    return triangles.outward if triangles is not None and solid and view.clip is None else 0
 
 
 def marker_radius(markers: tuple[Marker, ...], diagonal: float, size: float) -> float:

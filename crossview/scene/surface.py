@@ -59,10 +59,10 @@ class SurfaceLayer:
         self._actor.property.SetLighting(not shown or view.layer(shown).shaded)
         settings = view.layer("surface")
         self._actor.visible = bool(shown) or settings.visible
-        if self._watch.changed("style", settings, triangles):
+        if self._watch.changed("style", settings, triangles, view.clip is None):
             self._actor.property.SetOpacity(settings.opacity)
             self._actor.property.SetEdgeVisibility(settings.edges)
-            self._cull(triangles, settings.opacity)
+            self._cull(triangles, settings.opacity == 1.0 and view.clip is None)
             self._actor.property.SetLineWidth(WIDTH["edges"] * self._pixel_ratio)
 
     def remove(self) -> None:
@@ -76,9 +76,9 @@ class SurfaceLayer:
         self._actor.replace(triangles.points, faces=triangles.faces)
         self._origin = shade(self._actor.mesh)
 
-    def _cull(self, triangles: Triangles | None, opacity: float) -> None:
+    def _cull(self, triangles: Triangles | None, solid: bool) -> None:
         """Leave out the far side of a closed surface: nearly half the time of a frame."""
-        side = triangles.outward if triangles is not None and opacity == 1.0 else 0
+        side = triangles.outward if triangles is not None and solid else 0
         self._actor.property.SetBackfaceCulling(side > 0)
         self._actor.property.SetFrontfaceCulling(side < 0)
 

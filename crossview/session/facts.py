@@ -32,7 +32,7 @@ from crossview.session.shown import (
     drawn_of,
 )
 from crossview.view.scene_view import LayerSettings, default_layers
-from crossview.view.values import Elements, GuideLine
+from crossview.view.values import Elements, GuideLine, Plane
 from crossview.workflow.pipeline import Solution
 from crossview.workflow.problem import Problem
 from solvers.features import Features
@@ -74,6 +74,8 @@ class Facts:
         Whether as few natural singularities are left as the index budget allows.
     guide : tuple of GuideLine
         Where the singularity under the mouse may go.
+    clip : Plane or None
+        What is before it is not shown.
     poor : bool
         Whether the poor triangles are pointed out.
     layers : mapping of str to LayerSettings
@@ -98,6 +100,7 @@ class Facts:
     along_curvature: bool = False
     fewest_natural: bool = False
     guide: tuple[GuideLine, ...] = ()
+    clip: Plane | None = None
     poor: bool = False
     layers: Mapping[str, LayerSettings] = dataclasses.field(default_factory=default_layers)
     dark: bool = False

@@ -69,6 +69,7 @@ def scene_view(state: SessionState, held: Ranges = NO_RANGES) -> SceneView:
         loop=_loop(state),
         loop_color="" if condition is None else condition_color(condition),
         guide=state.guide,
+        clip=state.clip,
         measurement=_measurement(state, document.surface),
         problem=Elements(faces=poor_faces(surface)) if state.poor else state.pointed,
         title=_title(state, document),
@@ -110,7 +111,15 @@ def poor_faces(surface: TriSurface) -> IntArray:
 
 def figure_view(state: SessionState, transparent: bool, held: Ranges = NO_RANGES) -> SceneView:
     """Return what to draw in a figure: what is shown, without what only helps to edit."""
-    plain = replace(state, trial=None, focus=Focus(), guide=(), poor=False, tool=SelectTool())
+    plain = replace(
+        state,
+        trial=None,
+        focus=Focus(),
+        guide=(),
+        clip=None,
+        poor=False,
+        tool=SelectTool(),
+    )
     view = replace(scene_view(plain, held), worst=None)
     return replace(view, background="transparent") if transparent else view
 

@@ -51,10 +51,10 @@ class SessionState(Facts):
     ) -> SessionState:
         """Return the state with another document, without what does not fit it."""
         shown: Shown = self.drawn
-        tool, focus = self.tool, Focus()
+        tool, focus, clip = self.tool, Focus(), self.clip
         before = None if self.document is None else self.document.surface
         if document.surface is not before:
-            shown = Nothing()
+            shown, clip = Nothing(), None
             tool = SelectTool() if isinstance(tool, MarkTool | MeasureTool) else tool
         else:
             had = () if self.document is None else self.document.singularities
@@ -69,6 +69,7 @@ class SessionState(Facts):
             shown=shown,
             tool=tool,
             focus=focus,
+            clip=clip,
             trial=None,
             feature_trial=None,
         )

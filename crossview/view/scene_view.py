@@ -18,6 +18,7 @@ from crossview.view.values import (
     IntArray,
     Marker,
     Measurement,
+    Plane,
     Polylines,
     Quads,
 )
@@ -235,6 +236,8 @@ class SceneView:
         The patches, finely sampled.
     quads : Quads, optional
         The quad mesh.
+    clip : Plane, optional
+        What is before it is cut away.
     title : str
         One line at the top left.
     background : {"white", "dark", "transparent"}
@@ -266,6 +269,7 @@ class SceneView:
     worst: FloatArray | None = None
     layout: Quads | None = None
     quads: Quads | None = None
+    clip: Plane | None = None
     title: str = ""
     background: Background = "white"
     layers: Mapping[str, LayerSettings] = field(default_factory=default_layers)

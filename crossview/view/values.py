@@ -84,6 +84,23 @@ class GuideLine:
     strong: bool
 
 
+@dataclass(frozen=True)
+class Plane:
+    """A plane through a place; what its normal points to is cut away."""
+
+    place: tuple[float, float, float]
+    normal: tuple[float, float, float]
+
+    def before(self, points: FloatArray) -> FloatArray:
+        """Return how far points (..., 3) are before it; what is cut away is above 0."""
+        return np.asarray((np.asarray(points) - self.place) @ np.asarray(self.normal))
+
+    def moved(self, by: float) -> Plane:
+        """Return it moved along its normal."""
+        x, y, z = (p + by * n for p, n in zip(self.place, self.normal, strict=True))
+        return Plane((x, y, z), self.normal)
+
+
 @dataclass(frozen=True, eq=False)
 class Measurement:
     """What is being measured.

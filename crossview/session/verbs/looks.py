@@ -5,10 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
+import numpy as np
+
 from crossview.session.store import Store
 from crossview.session.verbs.solving import Solving
 from crossview.view.scalars import SCALARS, SURFACE_SCALARS
 from crossview.view.scene_view import LayerSettings, default_layers
+from crossview.view.values import FloatArray, Plane
+
+CLIP_STEP = 0.02
+"""How far one step moves the plane that clips, in diagonals of the surface. Chosen."""
 
 
 class Looks:
@@ -74,6 +80,23 @@ class Looks:
     def toggle_dark(self) -> None:
         """Draw on a dark background, or on white again."""
         self.set_dark(not self._store.state.dark)
+
+    def toggle_clip(self, towards: FloatArray) -> None:
+        """Cut away the half that a direction (3,) points to, or show all again."""
+        state = self._store.state
+        if state.document is None:
+            return
+        low, high = (end(state.document.surface.vertices, axis=0) for end in (np.min, np.max))
+        place, normal = (low + high) / 2, towards / np.linalg.norm(towards)
+        plane = Plane(tuple(place.tolist()), tuple(normal.tolist()))
+        self._store.update(replace(state, clip=plane if state.clip is None else None))
+
+    def move_clip(self, steps: int) -> None:
+        """Cut away less, or by negative steps more."""
+        state = self._store.state
+        if state.document is not None and state.clip is not None:
+            by = steps * CLIP_STEP * state.document.surface.diagonal
+            self._store.update(replace(state, clip=state.clip.moved(by)))
 
     def show_poor(self, shown: bool) -> None:
         """Point out the poor triangles."""
