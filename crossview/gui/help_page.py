@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 import platform
 from collections.abc import Mapping
+from pathlib import Path
 
 import PySide6
 from PySide6.QtCore import Qt
@@ -20,6 +21,7 @@ from PySide6.QtWidgets import (
 from vtkmodules.vtkCommonCore import vtkVersion
 
 import crossview
+from crossview.scene import renderer_name
 from crossview.session.log import Log
 from crossview.session.script import script
 from crossview.session.session import Session
@@ -103,9 +105,13 @@ class Help:
         QGuiApplication.clipboard().setText(script(self._session.state))
 
     def copy_diagnostics(self) -> None:
-        """Put versions, machine, what is open, the message and the last of the log there."""
+        """Put versions, machine, what is open, the message and the last of the log there.
+
+        What may be shared without a second look: the user's own folder is told as "~".
+        """
         last = [str(entry) for entry in self._log.entries][-LAST:]
-        QGuiApplication.clipboard().setText("\n".join([diagnostics(self._session.state), *last]))
+        told = "\n".join([diagnostics(self._session.state), *last])
+        QGuiApplication.clipboard().setText(told.replace(str(Path.home()), "~"))
 
 
 def _versions() -> list[str]:
@@ -113,6 +119,7 @@ def _versions() -> list[str]:
         f"Python {platform.python_version()}, PySide6 {PySide6.__version__}, "
         f"VTK {vtkVersion().GetVTKVersion()}",
         platform.platform(),
+        f"Drawn by {renderer_name()}",
     ]
 
 

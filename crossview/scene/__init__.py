@@ -24,7 +24,7 @@ Only the thread that owns the plotter may call the scene.
 """
 
 from crossview.scene.camera import Camera
-from crossview.scene.display import ensure_rendering, software_renderer
+from crossview.scene.display import ensure_rendering, renderer_name, software_renderer
 from crossview.scene.scene import Scene
 from crossview.view.field import field_view
 from crossview.view.scene_view import (
@@ -53,5 +53,6 @@ __all__ = [
     "ensure_rendering",
     "field_view",
     "layers_named",
+    "renderer_name",
     "software_renderer",
 ]

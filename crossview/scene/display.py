@@ -108,9 +108,19 @@ _ENTRY_POINTS = (b"eglQueryDevicesEXT", b"eglGetPlatformDisplayEXT")
 """Functions of EGL that it takes to draw without a screen."""
 
 
-@cache
 def software_renderer() -> bool:
-    """Return whether OpenGL runs on the processor; multi-sampling is then not worth its time.
+    """Return whether OpenGL runs on the processor; multi-sampling is then not worth its time."""
+    drawn_by = renderer_name().lower()
+    return any(name in drawn_by for name in ("llvmpipe", "softpipe", "swrast", "swiftshader"))
+
+
+_TOLD = ("OpenGL renderer", "OpenGL version")
+"""Lines of VTK's report on a window that name what draws."""
+
+
+@cache
+def renderer_name() -> str:
+    """Return what draws, as OpenGL tells it: a graphics card or a program, and a version.
 
     Opens a hidden window of a few pixels, once.
     """
@@ -123,6 +133,7 @@ def software_renderer() -> bool:
     window.SetUseOffScreenBuffers(True)
     window.SetSize(8, 8)
     window.Render()
-    report = window.ReportCapabilities().lower()
+    report = window.ReportCapabilities()
     window.Finalize()
-    return any(name in report for name in ("llvmpipe", "softpipe", "swrast", "swiftshader"))
+    told = dict(line.split(" string: ", 1) for line in report.splitlines() if " string: " in line)
+    return ", ".join(told[name].strip() for name in _TOLD if name in told)

@@ -1,6 +1,7 @@
 """Every widget says its name and shows its focus; themes, preferences, the log."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 from PySide6.QtCore import QSettings, Qt
@@ -11,6 +12,7 @@ from PySide6.QtWidgets import QApplication, QDialog, QWidget
 from crossview.gui.docks import TABS
 from crossview.gui.panels import LogPanel
 from crossview.gui.preferences import Preferences, PreferencesDialog
+from crossview.scene import renderer_name
 from crossview.view.colors import THEMES
 from tests.windowing import Hand
 
@@ -126,8 +128,14 @@ def test_the_log_tells_what_was_done_and_diagnostics_tell_the_log(hand: Hand) ->
     panel = hand.window.findChild(LogPanel)
     assert panel is not None
     assert panel.toPlainText().count("\n") == len(told) - 1
+    hand.open(Path.home() / "no such folder" / "surface.obj")
     hand.trigger("diagnostics")
-    assert "redo" in QGuiApplication.clipboard().text()
+    copied = QGuiApplication.clipboard().text()
+    assert "redo" in copied
+    assert f"Drawn by {renderer_name()}" in copied
+    assert renderer_name()
+    assert "no such folder" in copied
+    assert str(Path.home()) not in copied
     hand.trigger("preferences")
     for dialog in hand.window.findChildren(QDialog):
         dialog.close()
