@@ -8,7 +8,7 @@ import pyvista as pv
 from crossview.scene.actors import MeshActor
 from crossview.scene.watch import Watch
 from crossview.view.colors import CUT, CUT_HALO, FEATURE, LOOP, PROBLEM, THEMES
-from crossview.view.geometry import Triangles, dashes
+from crossview.view.geometry import Triangles, dashes, section
 from crossview.view.scene_view import SceneView
 from crossview.view.style import WIDTH
 
@@ -36,6 +36,31 @@ class BoundaryLayer:
 
     def remove(self) -> None:
         """Take the boundary off the plotter."""
+        self._actor.remove()
+
+
+class SectionLayer:
+    """Where the plane that clips meets the surface, in the theme's ink."""
+
+    def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float) -> None:
+        self._actor = MeshActor(plotter, "section")
+        self._actor.flat()
+        self._actor.property.SetLineWidth(WIDTH["boundary"] * pixel_ratio)
+        self._watch = Watch()
+
+    def show(self, view: SceneView, triangles: Triangles | None) -> None:
+        """Apply what changed."""
+        if triangles is None or view.clip is None:
+            self._actor.visible = False
+            return
+        if self._watch.changed("section", triangles, view.clip):
+            ends = section(triangles, view.clip)
+            self._actor.replace(ends, lines=np.arange(len(ends)).reshape(-1, 2))
+        self._actor.color(THEMES[view.background].ink)
+        self._actor.visible = True
+
+    def remove(self) -> None:
+        """Take it off the plotter."""
         self._actor.remove()
 
 

@@ -12,7 +12,13 @@ from vtkmodules.vtkCommonDataModel import vtkPlane
 from crossview.scene.axes import AxesLayer
 from crossview.scene.camera import Camera, Room, camera_for
 from crossview.scene.crosses import CrossesLayer
-from crossview.scene.curves import BoundaryLayer, CutLayer, FeaturesLayer, LoopLayer
+from crossview.scene.curves import (
+    BoundaryLayer,
+    CutLayer,
+    FeaturesLayer,
+    LoopLayer,
+    SectionLayer,
+)
 from crossview.scene.guide import GuideLayer
 from crossview.scene.legend import (
     BAR_ROOM,
@@ -39,6 +45,10 @@ from crossview.view.values import Plane
 
 LIGHT = (-0.3, 0.4, 1.0)
 """Where the light is in the camera's frame: left of the eye, above and behind it. Chosen."""
+
+
+_BESIDE = 1e-3
+"""How far before its plane clipping begins, in diagonals of the surface. Chosen."""
 
 
 class Layer(Protocol):
@@ -85,6 +95,7 @@ class Scene:
             SeparatricesLayer,
             FeaturesLayer,
             BoundaryLayer,
+            SectionLayer,
             CutLayer,
             LoopLayer,
             GuideLayer,
@@ -178,9 +189,10 @@ class Scene:
         for actor in self._plotter.renderer.GetActors():
             mapper = actor.GetMapper()
             mapper.RemoveAllClippingPlanes()
-            if plane is not None:
+            if plane is not None and self._triangles is not None:
                 behind = vtkPlane()
-                behind.SetOrigin(*plane.place)
+                # a little before it, so that the line where it meets the surface is whole
+                behind.SetOrigin(*plane.moved(_BESIDE * self._triangles.diagonal).place)
                 behind.SetNormal(*(-part for part in plane.normal))
                 mapper.AddClippingPlane(behind)
 

@@ -11,6 +11,8 @@ import numpy.typing as npt
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 
+from crossview.view.values import Plane
+
 FloatArray = npt.NDArray[np.floating[Any]]
 IntArray = npt.NDArray[np.integer[Any]]
 
@@ -168,3 +170,13 @@ def _distances(edges: IntArray, lengths: FloatArray, size: int) -> FloatArray:
         source = left[np.argmin(degree[left])]
         distance = np.minimum(distance, dijkstra(graph, directed=False, indices=source))
     return distance
+
+
+def section(triangles: Triangles, plane: Plane) -> FloatArray:
+    """Return the ends (2 k, 3), two after each other, of where a plane meets triangles."""
+    before = plane.before(triangles.points)
+    sides = triangles.faces[:, [[0, 1], [1, 2], [2, 0]]]
+    crossed = (before[sides] > 0).sum(axis=2) == 1
+    one, other = sides[crossed].T
+    share = (before[one] / (before[one] - before[other]))[:, None]
+    return np.asarray((1 - share) * triangles.points[one] + share * triangles.points[other])

@@ -35,6 +35,7 @@ TOWARDS = {
     "features": 70.0,
     "missed features": 75.0,
     "boundary": 80.0,
+    "section": 80.0,
     "cut halo": 90.0,
     "cut": 100.0,
     "loop": 120.0,

@@ -6,9 +6,10 @@ from numpy.typing import NDArray
 
 from crossview.scene.camera import Camera, Room, camera_for
 from crossview.view.field import cross_angle
-from crossview.view.geometry import Triangles, dashes
+from crossview.view.geometry import Triangles, dashes, section
+from crossview.view.values import Plane
 from solvers.errors import CrossviewError
-from solvers.primitives import annulus, blob, square, torus
+from solvers.primitives import annulus, blob, sphere, square, torus
 from solvers.surface.trisurface import TriSurface
 
 
@@ -129,3 +130,12 @@ class TestCamera:
         with pytest.raises(CrossviewError) as caught:
             camera_for(text, triangles(torus(n=24)), ROOM)
         assert "\n" not in str(caught.value)
+
+
+def test_a_plane_meets_a_sphere_in_a_closed_circle() -> None:
+    ends = section(triangles(sphere()), Plane((0.0, 0.0, 0.3), (0.0, 0.0, 1.0)))
+    np.testing.assert_allclose(ends[:, 2], 0.3, atol=1e-12)
+    _, met = np.unique(ends.round(9), axis=0, return_counts=True)
+    assert (met == 2).all()
+    length = np.linalg.norm(ends[1::2] - ends[::2], axis=1).sum()
+    assert length == pytest.approx(2 * np.pi * np.sqrt(1 - 0.3**2), rel=5e-3)
