@@ -434,8 +434,12 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "search", "Find any action by name",
     ),
     ActionSpec(
+        "tour", "Tour", "Help", lambda w: w.start_tour(),
+        tip="What to do first, a step after the other, in one minute", separated=True,
+    ),
+    ActionSpec(
         "keys", "Keys", "Help", lambda w: w.help.show_keys(), ("F1",),
-        tip="List all keys", separated=True,
+        tip="List all keys",
     ),
     ActionSpec(
         "diagnostics", "Copy diagnostics", "Help", lambda w: w.help.copy_diagnostics(),

@@ -29,6 +29,7 @@ class EmptyState(QWidget):
     chosen = Signal(str)
     """Name of a gallery case."""
     open_wanted = Signal()
+    tour_wanted = Signal()
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -45,6 +46,12 @@ class EmptyState(QWidget):
         browse = QPushButton("Open a file…")
         put_icon(browse, "open")
         browse.clicked.connect(self.open_wanted)
+        self.tour = QPushButton("Take the tour of one minute")
+        put_icon(self.tour, "solve")
+        self.tour.clicked.connect(self.tour_wanted)
+        choices = QHBoxLayout()
+        choices.addWidget(browse)
+        choices.addWidget(self.tour)
         self.thumbnails = [self._thumbnail(name, text) for name, text in FEATURED]
         row = QHBoxLayout()
         row.setSpacing(GAP)
@@ -54,9 +61,12 @@ class EmptyState(QWidget):
         row.addStretch()
         layout = QVBoxLayout(self)
         layout.addStretch(3)
-        for widget, space in ((drop, 8), (title, 4), (formats, 16), (browse, 32)):
+        for widget, space in ((drop, 8), (title, 4), (formats, 16)):
             layout.addWidget(widget, 0, Qt.AlignmentFlag.AlignHCenter)
             layout.addSpacing(space)
+        choices.setAlignment(Qt.AlignmentFlag.AlignHCenter)
+        layout.addLayout(choices)
+        layout.addSpacing(32)
         layout.addLayout(row)
         layout.addStretch(4)
 

@@ -46,6 +46,7 @@ from crossview.gui.solve_button import SolveButton
 from crossview.gui.status import Status
 from crossview.gui.theme import is_dark
 from crossview.gui.toolbar import fill_toolbar
+from crossview.gui.tour import CASE
 from crossview.gui.valence_box import ValenceBox
 from crossview.gui.viewport import Viewport
 from crossview.gui.window_geometry import WindowGeometry
@@ -138,6 +139,7 @@ class MainWindow(QMainWindow):
         self.viewport.limits_drawn.connect(self.layers_panel.show_limits)
         self.centre.empty.chosen.connect(self.files.open)
         self.centre.empty.open_wanted.connect(self.files.ask_open)
+        self.centre.empty.tour_wanted.connect(self.start_tour)
         self.centre.unsaved.restore.connect(self.files.restore)
         self.docks["Export"].visibilityChanged.connect(self.figure_preview.ask)
         self.viewport.frame_drawn.connect(self.figure_preview.ask)  # the camera may have turned
@@ -192,6 +194,11 @@ class MainWindow(QMainWindow):
         gallery.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         gallery.chosen.connect(self.files.open)
         gallery.open()
+
+    def start_tour(self) -> None:
+        """Open the case of the tour, and say step by step what to do with it."""
+        self.centre.tour.start()
+        self.files.open(CASE)
 
     def reset_docks(self) -> None:
         """Put all panels back to where they stand at first."""

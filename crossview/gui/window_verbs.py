@@ -62,6 +62,9 @@ class WindowVerbs(Protocol):
     def make_quads(self) -> None:
         """Make quads as the Quads panel says, and show it."""
 
+    def start_tour(self) -> None:
+        """Open the case of the tour, and say step by step what to do with it."""
+
     def reset_docks(self) -> None:
         """Put all panels back to where they stand at first."""
 
