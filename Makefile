@@ -6,6 +6,7 @@
 # make study  100 random configurations made valid, the anticube from random starts: the tables of
 #             docs/make_valid.md and docs/natural.md (minutes)
 # make maps   how many surfaces get their map: the tables of docs/maps.md (an hour); CROSSVIEW_DATA names a folder
+# make screenshots  the window in twelve situations, and all on one sheet: build/screenshots
 # make keys   the table of case keys in README.md
 # make bench-peers  quads beside other meshers, on the same surfaces: the table of docs/quads.md (minutes)
 # make fuzz   20 000 damaged files of every format, none of which may do harm (ten minutes)
@@ -21,7 +22,7 @@ PICTURE := crossview.png
 XVFB := $(if $(filter Darwin,$(shell uname)),,xvfb-run -a -s "-screen 0 1600x1200x24")
 PIP_INSTALL := $(VENV)/bin/python -m pip install --disable-pip-version-check
 
-.PHONY: run test docs bench table study maps keys bench-peers fuzz dist lock bundle clean
+.PHONY: run test docs bench table study maps screenshots keys bench-peers fuzz dist lock bundle clean
 
 run:
 	@sh tools/system-packages.sh window "$(PYTHON)"
@@ -60,6 +61,11 @@ maps:
 	@$(MAKE) --no-print-directory $(VENV)/installed
 	mkdir -p build && rm -f build/maps.jsonl
 	$(VENV)/bin/python -m benchmarks.maps docs/maps.md build/maps.jsonl
+
+screenshots:
+	@sh tools/system-packages.sh test "$(PYTHON)"
+	@$(MAKE) --no-print-directory $(VENV)/installed
+	$(subst 1600x1200,2600x1700,$(XVFB)) $(VENV)/bin/python -m tools.screenshots
 
 keys:
 	@$(MAKE) --no-print-directory $(VENV)/installed

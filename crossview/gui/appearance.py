@@ -8,6 +8,7 @@ from PySide6.QtCore import QObject, Qt
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QWidget
 
+from crossview.gui.focus_frames import renew_frames
 from crossview.gui.icons import renew_icons
 from crossview.gui.preferences import Preferences, PreferencesDialog
 from crossview.gui.theme import apply_theme
@@ -49,5 +50,6 @@ class Appearance(QObject):
 
     def _follow_theme(self) -> None:
         renew_icons(self._window)
+        renew_frames(self._window)
         for tell in self.themed:
             tell()

@@ -7,7 +7,7 @@ import numpy as np
 from PySide6.QtCore import QSettings, Qt
 from PySide6.QtGui import QAccessible, QGuiApplication, QImage
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QDialog, QWidget
+from PySide6.QtWidgets import QAbstractItemView, QApplication, QDialog, QWidget
 
 from crossview.gui.docks import TABS
 from crossview.gui.panels import LogPanel
@@ -83,8 +83,15 @@ def test_a_theme_turns_window_icons_and_scene(hand: Hand) -> None:
         scene = hand.picture()[4, 4] / 255
         return picture.pixelColor(5, 5).lightnessF(), float(np.mean(inked)), float(scene.mean())
 
+    def grounds() -> list[float]:
+        """How light lists, tables and texts are behind what is written, the empty ones too."""
+        areas = [area for area in window.findChildren(QAbstractItemView) if area.isVisible()]
+        pictures = [area.viewport().grab().toImage() for area in areas]
+        return [p.pixelColor(p.width() - 2, p.height() - 2).lightnessF() for p in pictures]
+
     window = hand.window
     light = lightness()
+    assert min(grounds()) > 0.8
     window.appearance.show_dialog()
     dialog = window.findChild(PreferencesDialog)
     assert dialog is not None
@@ -92,12 +99,15 @@ def test_a_theme_turns_window_icons_and_scene(hand: Hand) -> None:
     dialog.theme.setCurrentIndex(dialog.theme.findData("dark"))
     dark = lightness()
     assert light[0] > 0.8 > 0.5 > dark[0]
+    assert len(grounds()) >= 2
+    assert max(grounds()) < 0.5
     assert light[1] < 0.3 < 0.7 < dark[1]
     assert hand.shows(THEMES["dark"].background)
     assert light[2] > 0.9 > 0.2 > dark[2]
     assert Preferences.load().theme == "dark"
     dialog.theme.setCurrentIndex(dialog.theme.findData("light"))
     assert lightness() == light
+    assert min(grounds()) > 0.8
     dialog.shaded.setChecked(True)
     assert hand.state.layers["H"].shaded
     dialog.quads.setValue(1234)

@@ -6,8 +6,8 @@ from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QPalette, QResizeEvent
 from PySide6.QtWidgets import QApplication, QListView, QListWidget, QListWidgetItem
 
+from crossview.gui.focus_frames import frame_focus
 from crossview.gui.icons import icon
-from crossview.gui.panels.focus import frame_focus
 from crossview.view.scene_view import LayerKind
 
 ROW, EYE, COLUMNS = 22, 24, 2

@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtGui import QFontDatabase
 from PySide6.QtWidgets import QPlainTextEdit, QWidget
 
-from crossview.gui.panels.focus import frame_focus
+from crossview.gui.focus_frames import frame_focus
 from crossview.session.log import MOST, Log
 
 

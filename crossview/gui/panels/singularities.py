@@ -22,8 +22,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from crossview.gui.focus_frames import frame_focus
 from crossview.gui.icons import put_icon
-from crossview.gui.panels.focus import frame_focus
 from crossview.gui.panels.singularity_model import LOCK, POSITION, VALENCE, SingularityModel
 from crossview.session.commands import MIN_VALENCE
 from crossview.session.session import Session
