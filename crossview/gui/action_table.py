@@ -347,6 +347,17 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "stopped, they stay where they are",
         enabled=_improvable,
     ),
+    ActionSpec(
+        "snap", "Snap", "Singularities", lambda w: w.session.moves.snap(),
+        tip="Move unlocked singularities a little, until separatrices meet those they nearly met",
+        enabled=_improvable,
+    ),
+    ActionSpec(
+        "simplify", "Simplify", "Singularities", lambda w: w.simplify(),
+        tip="Merge unlocked singularities until as many are left as the Validity panel says, "
+        "and make those valid",
+        enabled=_improvable,
+    ),
     *_naturals(),
     ActionSpec(
         "along-curvature", "Along curvature", "Singularities",

@@ -82,7 +82,7 @@ class MainWindow(QMainWindow):
         self.mouse: Mouse = Mouse(self.viewport, self.session)
         self.surface_panel = SurfacePanel(self.session)
         self.singularities_panel: SingularitiesPanel = SingularitiesPanel(self.session, named)
-        self.validity_panel = ValidityPanel(self.session, named["make-valid"], named["improve"])
+        self.validity_panel = ValidityPanel(self.session, named)
         self.layers_panel = LayersPanel(self.session)
         self.convergence_panel = ConvergencePanel(named["compare"])
         self.quads_panel = QuadsPanel(named["mesh"], named["save-quads"])
@@ -212,6 +212,10 @@ class MainWindow(QMainWindow):
         """Make quads as the Quads panel says, and show it."""
         self.docks["Quads"].raise_()
         self.session.quad_making.make(self.quads_panel.options)
+
+    def simplify(self) -> None:
+        """Merge singularities until as many are left as the Validity panel says."""
+        self.session.moves.simplify(self.validity_panel.most.value())
 
     def add_pair(self) -> None:
         """Add a pair where the mouse is, where the menu was asked for, or where there is room."""

@@ -68,5 +68,8 @@ class WindowVerbs(Protocol):
     def reset_docks(self) -> None:
         """Put all panels back to where they stand at first."""
 
+    def simplify(self) -> None:
+        """Merge singularities until as many are left as the Validity panel says."""
+
     def show_palette(self) -> None:
         """Open the command palette."""

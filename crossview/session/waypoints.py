@@ -15,6 +15,7 @@ from crossview.session.method_solver import DRAWN_EVERY
 from crossview.workflow import configurations
 from solvers.errors import CrossviewError
 from solvers.fields import NATURAL_ALIGNMENTS, CrossesStep, CrossField
+from solvers.layouts import Snapped
 from solvers.progress import Progress, relayed
 from solvers.singularities import Singularity
 from solvers.surface import FloatArray
@@ -93,6 +94,42 @@ def improve_sizes(
     """
     _, end = yield from relayed(configurations.improve(document.problem), partial(_waypoint, base))
     return ReplaceSingularities(end.singularities, IMPROVE), end
+
+
+def snap_separatrices(
+    document: Document, base: LiveBase | None
+) -> Generator[Progress, None, tuple[Command, Snapped]]:
+    """Move the unlocked singularities until separatrices meet others; yields each `Waypoint`.
+
+    Returns
+    -------
+    Command
+    Snapped
+        Which singularities are joined.
+
+    Raises
+    ------
+    SingularityError
+        As `solvers.layouts.snap`.
+    """
+    _, end = yield from relayed(configurations.snap(document.problem), partial(_waypoint, base))
+    return ReplaceSingularities(end.singularities, "snap separatrices"), end
+
+
+def merge_to_fewer(
+    document: Document, base: LiveBase | None, most: int
+) -> Generator[Progress, None, Command]:
+    """Merge unlocked singularities until `most` are left, valid; yields each `Waypoint`.
+
+    Raises
+    ------
+    SingularityError
+        As `solvers.validity.simplify`.
+    """
+    _, end = yield from relayed(
+        configurations.simplify(document.problem, most), partial(_waypoint, base)
+    )
+    return ReplaceSingularities(end.singularities, f"simplify to {most}")
 
 
 def place_natural(

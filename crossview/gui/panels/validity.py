@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 from PySide6.QtCore import QEvent, QSize, Qt, Signal
 from PySide6.QtGui import QAction, QEnterEvent, QMouseEvent
 from PySide6.QtWidgets import (
     QFrame,
+    QGridLayout,
     QHBoxLayout,
     QLabel,
     QPushButton,
     QScrollArea,
     QSizePolicy,
+    QSpinBox,
     QVBoxLayout,
     QWidget,
 )
@@ -102,13 +106,20 @@ class ValidityPanel(QWidget):
     def __init__(
         self,
         session: Session,
-        make_valid: QAction,
-        improve: QAction,
+        actions: Mapping[str, QAction],
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
         self._session = session
-        self.make_valid, self.improve = _button(make_valid), _button(improve)
+        self.make_valid, self.improve, self.snap, self.simplify = (
+            _button(actions[name]) for name in ("make-valid", "improve", "snap", "simplify")
+        )
+        self.most = QSpinBox()
+        self.most.setPrefix("to ")
+        self.most.setAccessibleName("Singularities to simplify to")
+        self.most.setToolTip("How many singularities Simplify leaves")
+        self.most.setEnabled(self.simplify.isEnabled())
+        actions["simplify"].enabledChanged.connect(self.most.setEnabled)
         self.budget, self.existence = VerdictRow(), VerdictRow()
         font = self.budget.text.font()
         font.setBold(True)
@@ -152,11 +163,14 @@ class ValidityPanel(QWidget):
         layout.addWidget(self.note)
         layout.addLayout(self._offers)
         layout.addWidget(scroll, 1)
-        buttons = QHBoxLayout()
+        buttons = QGridLayout()
         buttons.setContentsMargins(30, 4, 8, 4)
         buttons.setSpacing(6)
-        buttons.addWidget(self.make_valid)
-        buttons.addWidget(self.improve)
+        for column, button in enumerate((self.make_valid, self.improve, self.snap)):
+            buttons.addWidget(button, 0, column)
+            buttons.setColumnStretch(column, 1)
+        buttons.addWidget(self.simplify, 1, 0, 1, 2)
+        buttons.addWidget(self.most, 1, 2)
         layout.addLayout(buttons)
         layout.addStretch()
         self.show_state(None, session.state)
@@ -169,9 +183,18 @@ class ValidityPanel(QWidget):
         if old is not None and all(getattr(old, name) is getattr(new, name) for name in seen):
             return
         self._show_budget(new)
+        if old is None or old.document is not new.document:
+            self._suggest(new)
         if old is None or _offers(old) != _offers(new):
             self._show_offers(_offered(new))
         self._show_conditions(new)
+
+    def _suggest(self, state: SessionState) -> None:
+        """Suggest half of the singularities that there are, where their number has changed."""
+        count = 0 if state.document is None else len(state.document.singularities)
+        if self.most.maximum() != max(count - 1, 0):
+            self.most.setRange(0, max(count - 1, 0))
+            self.most.setValue(count // 2)
 
     def _show_budget(self, state: SessionState) -> None:
         budget = state.budget

@@ -7,6 +7,8 @@ from dataclasses import replace
 from functools import partial
 from typing import TypeVar
 
+import numpy as np
+
 from crossview.session.commands import Command, ReplaceSingularities
 from crossview.session.message import Message
 from crossview.session.verbs.group import VerbGroup
@@ -14,9 +16,13 @@ from crossview.session.waypoints import (
     IMPROVE,
     Waypoint,
     improve_sizes,
+    merge_to_fewer,
     move_to_validity,
     place_natural,
+    snap_separatrices,
 )
+from solvers.errors import counted
+from solvers.layouts import Snapped
 from solvers.progress import Progress, relayed
 from solvers.validity import Improved
 
@@ -45,14 +51,13 @@ class Moves(VerbGroup):
             command, end = found
             if end.singularities == end.start:
                 self._solving.restore()
-                text = "Sizes are as even as these singularities let them be"
-            else:
-                self._do(command)
-                text = (
-                    f"Sizes are more even: variance of H {end.before.variance:.3g} before, "
-                    f"{end.sizes.variance:.3g} now"
-                )
-            self._store.update(self._state.said(Message(text, "edit", "info")))
+                self._say("Sizes are as even as these singularities let them be")
+                return
+            self._do(command)
+            self._say(
+                f"Sizes are more even: variance of H {end.before.variance:.3g} before, "
+                f"{end.sizes.variance:.3g} now"
+            )
 
         passed: list[Waypoint] = []
 
@@ -69,6 +74,43 @@ class Moves(VerbGroup):
 
         way = partial(improve_sizes, state.document, state.base)
         self._run(lambda: relayed(way(), keep), done, stopped)
+
+    def snap(self) -> None:
+        """Move the unlocked singularities until separatrices meet what they nearly meet."""
+        document = self._state.document
+        if document is None:
+            return
+
+        def done(found: tuple[Command, Snapped]) -> None:
+            command, end = found
+            before, after = (
+                document.surface.positions([s.point for s in placed])
+                for placed in (document.singularities, end.singularities)
+            )
+            farthest = float(np.linalg.norm(after - before, axis=1).max())
+            self._do(command)
+            self._say(
+                f"{counted(len(end.connections), 'connection')} between singularities, "
+                f"which moved by up to {farthest:.3g}"
+            )
+
+        self._run(partial(snap_separatrices, document, self._state.base), done, self._say_unchanged)
+
+    def simplify(self, most: int) -> None:
+        """Merge unlocked singularities until `most` are left, and make those valid."""
+        document = self._state.document
+        if document is None:
+            return
+
+        def done(command: Command) -> None:
+            self._do(command)
+            before, after = len(document.singularities), len(self._state.singularities)
+            self._say(f"{before} singularities before, {after} now, every loop closed")
+
+        # on their way there are other ones
+        self._store.update(self._state.focused(self._state.focus.on(None)))
+        fewer = partial(merge_to_fewer, document, self._state.base, most)
+        self._run(fewer, done, self._say_unchanged)
 
     def place_natural(self, method: str) -> None:
         """Replace the singularities by those of a smooth cross-field."""
@@ -103,6 +145,9 @@ class Moves(VerbGroup):
 
         self._store.update(self._state.unsaid("edit"))
         self._solving.run(job, done, failed, stopped)
+
+    def _say(self, text: str) -> None:
+        self._store.update(self._state.said(Message(text, "edit", "info")))
 
     def _say_unchanged(self) -> None:
         self._solving.restore()

@@ -1,0 +1,110 @@
+"""From valid places to better ones: separatrices that meet, fewer singularities."""
+
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from crossview.cases.model import Builtin, Case, PlacedSingularity
+from crossview.session.state import SessionState
+from solvers.surface import FloatArray
+from tests.windowing import Hand
+
+OFF = ((0.5, 0.03, 0.0), (0.0, 0.5, 0.0), (-0.5, 0.0, 0.0), (0.0, -0.5, 0.0))
+PAIR = (PlacedSingularity((0.1, 0.0, 0.0), 3), PlacedSingularity((-0.1, 0.05, 0.0), 5))
+
+
+@pytest.fixture
+def off(hand: Hand, tmp_path: Path) -> Path:
+    """A disk in the window, one of its four singularities off the corner of their square."""
+    path = tmp_path / "off.json"
+    threes = tuple(PlacedSingularity(place, 3) for place in OFF)
+    Case(Builtin("disk", {"edge_length": 0.1}), threes).save(path)
+    hand.open(path)
+    return path
+
+
+def test_snap_makes_separatrices_meet_in_one_step(hand: Hand, off: Path) -> None:
+    before = hand.state.document
+    on_the_way = []
+    hand.window.session.observers.append(
+        lambda old, new: on_the_way.append(new.singularities) if new.moving is not None else None
+    )
+    hand.window.validity_panel.snap.click()
+    hand.wait(lambda: hand.state.solved and hand.state.document is not before)
+    assert len(set(on_the_way)) > 1
+    assert hand.said.startswith("4 connections between singularities, which moved by up to 0.0")
+    assert hand.state.undo_name == "snap separatrices"
+    hand.trigger("undo")
+    hand.wait(lambda: hand.state.solved)
+    assert hand.state.document is before
+
+
+def snapped(hand: Hand) -> FloatArray:
+    """Places of the singularities after one more snap."""
+    before = hand.state.document
+    hand.trigger("snap")
+    hand.wait(lambda: hand.state.solved and hand.state.document is not before)
+    return places(hand)
+
+
+def places(hand: Hand) -> FloatArray:
+    return hand.state.document.surface.positions([s.point for s in hand.state.singularities])
+
+
+def test_what_is_snapped_stays(hand: Hand, off: Path) -> None:
+    start, once, twice = places(hand), snapped(hand), snapped(hand)
+    moves = [np.linalg.norm(b - a, axis=1).max() for a, b in pairwise((start, once, twice))]
+    assert moves[1] < 0.1 * moves[0]
+
+
+def test_simplify_leaves_as_many_as_the_panel_says(hand: Hand, off: Path, tmp_path: Path) -> None:
+    path = tmp_path / "more.json"
+    case = Case.load(off)
+    Case(case.surface, (*case.singularities, *PAIR)).save(path)
+    hand.open(path)
+    panel, before = hand.window.validity_panel, hand.state.document
+    assert (panel.most.value(), panel.most.maximum()) == (3, 5)
+    panel.simplify.click()
+    hand.wait(lambda: hand.state.message is not None)
+    assert "no fewer than 4 singularities can be left, 3 are asked for" in hand.said
+    assert hand.state.document is before
+
+    panel.most.setValue(4)
+    hand.window.session.pointer.select(5)
+    panel.simplify.click()
+    hand.wait(lambda: hand.state.solved and hand.state.document is not before)
+    assert [s.valence for s in hand.state.singularities] == [3, 3, 3, 3]
+    assert hand.said == "6 singularities before, 4 now, every loop closed"
+    assert hand.state.undo_name == "simplify to 4"
+    assert np.abs(hand.state.solution.holonomy_defects).max(initial=0.0) < np.radians(1e-3)
+    hand.trigger("undo")
+    hand.wait(lambda: hand.state.solved)
+    assert hand.state.document is before
+
+
+@pytest.mark.parametrize("name", ["snap", "simplify"])
+def test_stopped_they_change_nothing(hand: Hand, off: Path, name: str) -> None:
+    before, field = hand.state.document, hand.state.field
+
+    def stop_at_once(old: SessionState, new: SessionState) -> None:
+        if new.progress is not None:
+            hand.window.session.observers.remove(stop_at_once)
+            hand.window.actions_table.by_name["stop"].trigger()
+
+    hand.window.session.observers.append(stop_at_once)
+    hand.trigger(name)
+    hand.wait(lambda: hand.state.message is not None)
+    assert hand.said == "Stopped; nothing was changed"
+    assert hand.state.document is before
+    assert hand.state.field is field
+
+
+def test_what_is_locked_leaves_nothing_to_better(hand: Hand, off: Path) -> None:
+    panel = hand.window.validity_panel
+    buttons = (panel.improve, panel.snap, panel.simplify, panel.most)
+    for i in range(4):
+        assert all(button.isEnabled() for button in buttons)
+        hand.window.session.edits.toggle_lock(i)
+    assert not any(button.isEnabled() for button in buttons)
