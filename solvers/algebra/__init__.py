@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from solvers.algebra.factorization import Analysis, Factorization, factorized
+from solvers.algebra.lanczos import ritz_vectors
 from solvers.algebra.operators import crouzeix_raviart, laplacian, lumped_mass, stiffness
 
 __all__ = [
@@ -12,5 +13,6 @@ __all__ = [
     "factorized",
     "laplacian",
     "lumped_mass",
+    "ritz_vectors",
     "stiffness",
 ]

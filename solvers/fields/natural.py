@@ -26,6 +26,7 @@ import numpy.typing as npt
 from scipy.sparse import coo_array, csc_array, diags_array
 
 from solvers.algebra.factorization import factorized
+from solvers.algebra.lanczos import ritz_vectors
 from solvers.errors import CrossviewError
 from solvers.features.edges import Features, no_features
 from solvers.fields.crossfield import Convergence, CrossField
@@ -74,7 +75,9 @@ the cube on the sphere, a saddle, exceeds the anticube's by 0.19.
 """
 
 STILL = 1e-6
-"""Root mean square change of the crosses, unit numbers, that ends an iteration. Chosen."""
+"""Root mean square change of the crosses, unit numbers, that ends an iteration; of an eigenvector,
+its residual, relative. Chosen.
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -299,6 +302,7 @@ class _Crosses:
         self.between_features[surface.boundary_vertices] = False  # its corners are chosen
         self.size = float(surface.area)
         self._group: tuple[Isometry, ...] = ()
+        self._kept: tuple[tuple[float, float], _Hermitian] | None = None
         # pull int |z - principal|^2 is added to the energy.
         self.pulled = np.zeros(n, dtype=complex)
         if pull > 0:
@@ -327,9 +331,17 @@ class _Crosses:
         """
         unit: ComplexArray = np.where(self.free, _unit(z), 1.0)
         time = COMPARED * self.size
-        step = _Hermitian(self.energy * time + diags_array(self.mass), self.free)
+        step = self._factored(time, 1.0)
         diffused = step.solve(self.mass * unit + time * self.pulled, unit)
         return float(((self.mass * unit.conj()) @ (unit - diffused)).real / time)
+
+    def _factored(self, stiffness: float, mass: float) -> _Hermitian:
+        """Return the factored sum of so much energy and mass; the last one is kept."""
+        if self._kept is None or self._kept[0] != (stiffness, mass):
+            self._kept = None  # room for the next
+            matrix = self.energy * stiffness + diags_array(mass * self.mass)
+            self._kept = (stiffness, mass), _Hermitian(matrix, self.free)
+        return self._kept[1]
 
     def random(self, rng: np.random.Generator) -> ComplexArray:
         z = np.exp(2j * np.pi * rng.random(len(self.mass)))
@@ -354,7 +366,7 @@ class _Crosses:
         return z
 
     def _diffuse(self, z: ComplexArray, time: float) -> Generator[Progress, None, ComplexArray]:
-        step = _Hermitian(self.energy * time + diags_array(self.mass), self.free)
+        step = self._factored(time, 1.0)
 
         def diffuse(z: ComplexArray) -> ComplexArray:
             return _unit(step.solve(self.mass * z + time * self.pulled, z))
@@ -365,7 +377,7 @@ class _Crosses:
         z = yield from self._diffuse(self.random(rng), 0.05 * self.size)
         width = max(0.05 * np.sqrt(self.size), 1.5 * float(self.t.lengths.mean()))
         pull = 3.0 / width**2  # makes the step stable for |z| <= 1
-        step = _Hermitian(self.energy + diags_array(pull * self.mass), self.free)
+        step = self._factored(1.0, pull)
 
         def descend(z: ComplexArray) -> ComplexArray:
             well = pull + (1 - np.abs(z) ** 2) / width**2
@@ -391,17 +403,22 @@ class _Crosses:
 
     def globally_optimal(self, rng: np.random.Generator) -> Generator[Progress, None, ComplexArray]:
         shift = 1e-8 / self.size
-        step = _Hermitian(self.energy + diags_array(shift * self.mass), self.free)
+        step = self._factored(1.0, shift)
         z = self.random(rng)
         if self.pulled.any() or not self.free.all():
             return self._averaged(step.solve(self.pulled, z))
-        for count in range(ITERATIONS):
-            after = self._averaged(step.solve(self.mass * z, z))
-            after /= np.sqrt(self.mass @ np.abs(after) ** 2)
-            overlap = abs((self.mass * z.conj()) @ after) / np.sqrt(self.mass @ np.abs(z) ** 2)
-            z = after
+        root = np.sqrt(self.mass)
+
+        def inverse(x: FloatArray) -> FloatArray:
+            z = x.view(np.complex128)
+            return np.asarray(root * self._averaged(step.solve(root * z, z))).view(np.float64)
+
+        # Real, as the mean with mirrored images is not linear over complex numbers.
+        found = ritz_vectors(inverse, (root * z).view(np.float64))
+        for count, (x, residual) in zip(range(ITERATIONS), found, strict=False):
+            z = x.view(np.complex128) / root
             yield CrossesStep("globally optimal", count / ITERATIONS, self.surface, z)
-            if 1 - overlap < 1e-12:
+            if residual < STILL:
                 break
         return z
 

@@ -4,12 +4,18 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.linalg import eigh
 
 from solvers.errors import CrossviewError, SingularityError
 from solvers.features.dihedral import sharp_edges
-from solvers.features.edges import Features
+from solvers.features.edges import Features, no_features
 from solvers.fields.isotropic import IsotropicSolver
-from solvers.fields.natural import NATURAL_METHODS, CrossesStep, natural_singularities
+from solvers.fields.natural import (
+    NATURAL_METHODS,
+    CrossesStep,
+    _Crosses,
+    natural_singularities,
+)
 from solvers.fields.principal import principal_crosses
 from solvers.primitives import BUILTIN
 from solvers.progress import Progress, relayed, run
@@ -275,3 +281,12 @@ def test_symmetric_surfaces_have_symmetric_singularities(name: str, method: str)
             gaps = np.linalg.norm(isometry.image(places)[:, None] - places, axis=2)
             gaps[valences[:, None] != valences] = np.inf
             assert gaps.min(axis=1).max() < 1e-6 * surface.diagonal
+
+
+def test_no_crosses_of_unit_norm_are_smoother_than_the_globally_optimal() -> None:
+    surface = BUILTIN["sphere"](subdivisions=2)
+    problem = _Crosses(surface, no_features(surface), 0.0, surface.triangulation.angles)
+    z = run(problem.globally_optimal(np.random.default_rng(0)))
+    least = eigh(problem.energy.toarray(), np.diag(problem.mass), eigvals_only=True)[0]
+    energy = (z.conj() @ (problem.energy @ z)).real / (problem.mass @ np.abs(z) ** 2)
+    assert energy == pytest.approx(least, rel=1e-9)
