@@ -161,7 +161,7 @@ def corner_angles(faces: Faces, triangles: Floats, ground: Ground) -> Angles:
     best = wide
     for reach in AT_ONCE:
         near = wide.copy()
-        near[again] = mean(_around(quarter[:, again], reach), MANY)[0]
+        near[again] = mean(_around(quarter[:, again], wide[again], reach), MANY)[0]
         upright = measured(near)._sines > measured(best)._sines
         best = np.where(upright[:, None], near, best)
     return measured(best)
@@ -174,12 +174,19 @@ def _quarters(faces: Faces) -> Floats:
     return np.stack([places, on, faces.middles[faces.owner], back])
 
 
-def _around(quarter: Floats, reach: float) -> Floats:
-    """A patch (4, k, 3) all around the corners of quarters, so far as part of their sides."""
+def _around(quarter: Floats, normals: Floats, reach: float) -> Floats:
+    """A square (4, k, 3) about the corners of quarters, across normals, so far as part of a side.
+
+    However straight the corner is: so the mean normal in it is the one weighted by angles.
+    """
     here, on, _, back = quarter
-    ways = reach * (on - here), reach * (back - here)
+    sides = np.stack([on - here, back - here])
+    level = sides - np.einsum("skx,kx->sk", sides, normals)[..., None] * normals
+    longer = np.linalg.norm(level, axis=2).argmax(axis=0)[None, :, None]
+    first = np.take_along_axis(level, longer, axis=0)[0]
+    second = np.cross(normals, first)
     turns = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
-    return np.asarray(here + np.stack([a * ways[0] + b * ways[1] for a, b in turns]))
+    return np.asarray(here + reach * np.stack([a * first + b * second for a, b in turns]))
 
 
 def _mean_normals(unit: Floats, ground: Ground, patch: Floats, n: int) -> tuple[Floats, Bools]:

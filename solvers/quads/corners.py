@@ -12,7 +12,7 @@ from solvers.features.dihedral import dihedral_angles
 from solvers.quads.incidence import CornersAround
 from solvers.surface.sectors import corner_sectors
 from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
-from solvers.surface.trisurface import TriSurface, closest_barycentric
+from solvers.surface.trisurface import TriSurface
 
 CREASE = np.radians(30.0)
 """Angle between the normals beside an edge, radians, beyond which it has two tangent planes.
@@ -27,9 +27,6 @@ rounding.
 
 NO_LENGTH = 1e-9
 """Length of a side that counts as none, in that of the quad's longest. Chosen, above rounding."""
-
-FAR = 1e4
-"""How long triangles are made that stand for angles at a place, beside a unit vector. Chosen."""
 
 
 class TangentPlanes:
@@ -70,6 +67,50 @@ class TangentPlanes:
         per_vertex = np.unique(np.stack([surface.faces.reshape(-1), sector]), axis=1)[0]
         self._split: BoolArray = np.bincount(per_vertex, minlength=surface.n_vertices) > 1
         self._around = CornersAround(surface.faces, surface.n_vertices)
+        corners = surface.vertices[surface.faces]
+        ways = unit(np.roll(corners, -1, axis=1) - corners)
+        self._ways: FloatArray = ways.reshape(-1, 3)
+        self._whole: FloatArray = _by_angles(surface)
+
+    def quality(
+        self, faces: IntArray, weights: FloatArray, places: FloatArray, quads: IntArray
+    ) -> FloatArray:
+        """Return the scaled Jacobians (...) of quads on the surface.
+
+        A corner on a crease that has 180 degrees or more seen along the mean of the normals all
+        around it, on both sides, counts as inverted, too: what lies on one side never has.
+
+        Parameters
+        ----------
+        faces, weights, places, quads
+            As of `corner_normals`.
+        """
+        corners = places[quads].reshape(-1, 4, 3)
+        normals = self.corner_normals(faces, weights, places, quads).reshape(-1, 4, 3)
+        sines = corner_sines(corners, normals)
+        at = quads.reshape(-1)
+        on, across = self._on_creases(faces[at], weights[at])
+        if len(on):
+            some = np.unique(on // 4)
+            normals = normals.copy()
+            normals.reshape(-1, 3)[on] = across
+            whole = corner_sines(corners[some], normals[some])
+            sines[some] = np.where(whole <= 0, np.minimum(whole, sines[some]), sines[some])
+        return np.asarray(sines.min(axis=1).reshape(quads.shape[:-1]))
+
+    def _on_creases(self, faces: IntArray, weights: FloatArray) -> tuple[IntArray, FloatArray]:
+        """Return which places (k,) are on creases, and the mean normals (k, 3) all around them."""
+        inner = weights > ON_EDGE
+        n_inner = inner.sum(axis=1)
+        edge = 3 * faces + (np.argmin(inner, axis=1) + 1) % 3
+        vertex = self._surface.faces[faces, np.argmax(inner, axis=1)]
+        on_edge = np.flatnonzero((n_inner == 2) & self._crease[edge])
+        at_vertex = np.flatnonzero((n_inner == 1) & self._split[vertex])
+        normals = self._surface.face_normals
+        h = edge[on_edge]
+        beside = normals[h // 3] + normals[self._surface.triangulation.twin[h] // 3]
+        found = unit(np.concatenate([beside, self._whole[vertex[at_vertex]]]))
+        return np.concatenate([on_edge, at_vertex]), found
 
     def normals(self, faces: IntArray, weights: FloatArray, towards: FloatArray) -> FloatArray:
         """Return the unit normals (k, 3) at places, on the sides that vectors point to.
@@ -122,43 +163,61 @@ class TangentPlanes:
         at_vertex = np.flatnonzero((n_inner == 1) & self._split[vertex])
         if len(on_edge) + len(at_vertex) == 0:
             return faces, weights
-        h, twin = edge[on_edge], self._surface.triangulation.twin[edge[on_edge]]
-        at, star = self._around.pairs(vertex[at_vertex])
-        place = np.concatenate([np.tile(on_edge, 4), at_vertex[at]])
-        # Angles between two ways from a place, as the corners that the ways lead to: of a vertex
-        # one in each triangle, of an edge two on each side, parted by the corner across.
-        ends = [[1, 2], [2, 0]]
-        triangle = np.concatenate([h // 3, h // 3, twin // 3, twin // 3, star // 3])
-        first = np.concatenate([(x + a) % 3 for x in (h, twin) for a, _ in ends] + [(star + 1) % 3])
-        last = np.concatenate([(x + b) % 3 for x in (h, twin) for _, b in ends] + [(star + 2) % 3])
-        return self._nearest_angle(faces, weights, towards, place, triangle, first, last)
-
-    def _nearest_angle(
-        self,
-        faces: IntArray,
-        weights: FloatArray,
-        towards: FloatArray,
-        place: IntArray,
-        triangle: IntArray,
-        first: IntArray,
-        last: IntArray,
-    ) -> tuple[IntArray, FloatArray]:
-        """Return places moved to the triangle of the angle that their vector is nearest to."""
-        corners = self._surface.vertices[self._surface.faces]
-        here = (weights[place][:, :, None] * corners[faces[place]]).sum(axis=1)
-        ways = [unit(corners[triangle, end] - here) for end in (first, last)]
-        shape = np.stack([np.zeros_like(here), FAR * ways[0], FAR * ways[1]], axis=1)
-        vector = unit(towards[place])
-        near = closest_barycentric(shape, vector)
-        gap = np.linalg.norm((near[:, :, None] * shape).sum(axis=1) - vector, axis=1)
-        order = np.lexsort((triangle, gap, place))
-        best = order[np.r_[True, np.diff(place[order]) > 0]]
+        place, triangle = self._nearest_sides(on_edge, edge[on_edge], towards)
+        found = self._nearest_corners(at_vertex, vertex[at_vertex], towards)
+        place, triangle = (np.concatenate(x) for x in zip((place, triangle), found, strict=True))
         faces, weights = faces.copy(), weights.copy()
-        at, was = place[best], self._surface.faces[faces[place[best]]]
-        same = self._surface.faces[triangle[best]][:, :, None] == was[:, None]
-        weights[at] = (same * weights[at][:, None]).sum(axis=2)
-        faces[at] = triangle[best]
+        was = self._surface.faces[faces[place]]
+        same = self._surface.faces[triangle][:, :, None] == was[:, None]
+        weights[place] = (same * weights[place][:, None]).sum(axis=2)
+        faces[place] = triangle
         return faces, weights
+
+    def _nearest_sides(
+        self, places: IntArray, edges: IntArray, towards: FloatArray
+    ) -> tuple[IntArray, IntArray]:
+        """Return places on edges, and which triangle beside it the vector of each is nearest to."""
+        vector = unit(towards[places])
+        both = np.stack([edges, self._surface.triangulation.twin[edges]])
+        both.sort(axis=0)
+        normal, along = self._surface.face_normals[both // 3], self._ways[both]
+        inside = (vector * np.cross(normal, along)).sum(axis=-1) >= 0
+        off = np.where(
+            inside,
+            np.abs((vector * normal).sum(axis=-1)),
+            np.linalg.norm(np.cross(vector, along), axis=-1),
+        )
+        return places, np.where(off[0] <= off[1], both[0], both[1]) // 3
+
+    def _nearest_corners(
+        self, places: IntArray, vertices: IntArray, towards: FloatArray
+    ) -> tuple[IntArray, IntArray]:
+        """Return places at vertices, and which triangle there the vector of each is nearest to."""
+        at, corner = self._around.pairs(vertices)
+        vector = unit(towards[places])[at]
+        normal = self._surface.face_normals[corner // 3]
+        first, last = self._ways[corner], -self._ways[corner - corner % 3 + (corner + 2) % 3]
+        inside = ((np.cross(first, vector) * normal).sum(axis=1) >= 0) & (
+            (np.cross(vector, last) * normal).sum(axis=1) >= 0
+        )
+        cosine = np.clip((vector * np.stack([first, last])).sum(axis=-1).max(axis=0), 0.0, 1.0)
+        off = np.where(inside, np.abs((vector * normal).sum(axis=1)), np.sqrt(1 - cosine**2))
+        start = np.flatnonzero(np.r_[True, np.diff(at) > 0]) if len(at) else at
+        nearest = np.flatnonzero(off <= np.minimum.reduceat(off, start)[at]) if len(at) else at
+        first_of = np.unique(at[nearest], return_index=True)[1]
+        return places, corner[nearest[first_of]] // 3
+
+
+def _by_angles(surface: TriSurface) -> FloatArray:
+    """Return the sums (n, 3) of the unit normals around vertices, weighted by angles."""
+    corners = surface.vertices[surface.faces]
+    ahead = unit(np.roll(corners, -1, axis=1) - corners)
+    back = unit(np.roll(corners, 1, axis=1) - corners)
+    angle = np.arctan2(
+        np.linalg.norm(np.cross(ahead, back), axis=2), (ahead * back).sum(axis=2)
+    ).reshape(-1)
+    at, normals = surface.faces.reshape(-1), np.repeat(surface.face_normals, 3, axis=0)
+    return np.stack([np.bincount(at, angle * x, surface.n_vertices) for x in normals.T], axis=1)
 
 
 def corner_sines(corners: FloatArray, normals: FloatArray) -> FloatArray:

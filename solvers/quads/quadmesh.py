@@ -11,7 +11,7 @@ from scipy.sparse.csgraph import connected_components
 
 from solvers.errors import CrossviewError
 from solvers.frozen import freeze_arrays
-from solvers.quads.corners import TangentPlanes, scaled_jacobian, worth
+from solvers.quads.corners import TangentPlanes, worth
 from solvers.quads.incidence import edge_table, paired_sides
 from solvers.quads.projection import Projection
 from solvers.quads.quantization import Quantization
@@ -134,8 +134,7 @@ class QuadMesh:
         0 or less where a corner has 180 degrees or more there, or a side no length.
         """
         planes = TangentPlanes(self.surface)
-        normals = planes.corner_normals(self.faces, self.barycentric, self.vertices, self.quads)
-        return scaled_jacobian(self.vertices[self.quads], normals)
+        return planes.quality(self.faces, self.barycentric, self.vertices, self.quads)
 
     @property
     def worth(self) -> tuple[int, float]:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from solvers.quads.corners import TangentPlanes, scaled_jacobian, unit
+from solvers.quads.corners import TangentPlanes, unit
 from solvers.quads.projection import Projection
 from solvers.quads.quadmesh import QuadMesh
 from solvers.quads.rails import Rail
@@ -90,7 +90,7 @@ class Sliding:
 
     def quality(self, places: Places, quads: IntArray) -> FloatArray:
         """Return the scaled Jacobians of quads (..., 4) given by their vertices."""
-        return scaled_jacobian(places.vertices[quads], self.normals(places, quads))
+        return self._planes.quality(places.faces, places.weights, places.vertices, quads)
 
     def normals(self, places: Places, quads: IntArray) -> FloatArray:
         """Return the surface's normals (..., 4, 3) at the corners of quads (..., 4)."""
