@@ -28,8 +28,8 @@ from solvers.surface.triangulation import FloatArray, IntArray
 ROUNDS = 30
 """How often all vertices move. Chosen."""
 
-STAGES = 3
-"""How often these rounds are run at most, poor quads improved one by one after each. Chosen."""
+STAGES = 2
+"""How often poor quads are improved one by one at most, and these rounds run again. Chosen."""
 
 PULL = 0.3
 """How much of a rectangle's sides, in logarithms, is what they were at first: 0 none, 1 all.
@@ -129,41 +129,37 @@ def smooth(
 def _unfolded(sliding: Sliding, start: Places, found: Places, rounds: int) -> Places:
     """Return places with fewer inverted quads than those found, none worse than at the start."""
     quads = sliding.mesh.quads
-    quality = sliding.quality(start, quads)
-    least, floor = quality.min(), np.minimum(quality, GOOD)
-
-    def better(found: Places, tried: Places) -> Places:
-        now, then = (worth(sliding.quality(places, quads)) for places in (found, tried))
-        return tried if then > now and then[1] >= least else found
-
-    # Some unfold only if they may fold further on the way, if need be not beyond the worst.
-    inverted = (sliding.quality(found, quads) <= 0).any()
-    for depth in (-1.0, least) if inverted else ():
-        tried = _kept_above(np.where(quality > 0, floor, depth), sliding, start, rounds)
-        found = better(found, tried)
-        if sliding.quality(tried, quads).min() >= least:
-            break
-    if sliding.quality(found, quads).min() < ENOUGH:
-        free = np.flatnonzero(~sliding.mesh.fixed)
-        tried = unfold(sliding, (found, start), free, _sides(sliding.mesh))
-        floor = np.minimum(sliding.quality(tried, quads), GOOD)
-        found = better(found, _kept_above(floor, sliding, tried, rounds))
-    return found
+    least = sliding.quality(start, quads).min()
+    free = np.flatnonzero(~sliding.mesh.fixed)
+    tried = unfold(sliding, found, free, _sides(sliding.mesh))
+    quality = sliding.quality(tried, quads)
+    # Some unfold only if they may fold further on the way.
+    floor = np.where(quality > 0, np.minimum(quality, GOOD), least)
+    tried = _kept_above(floor, sliding, tried, rounds)
+    now, then = (worth(sliding.quality(places, quads)) for places in (found, tried))
+    return tried if then > now and then[1] >= least else found
 
 
 def _kept_above(floor: FloatArray, sliding: Sliding, start: Places, rounds: int) -> Places:
     """Return better places, vertices on as many sharp turns of rails as leave all above a floor."""
-    quads = sliding.mesh.quads
-    snapped, on_corners = sliding.snapped(start)
+    snapped, held = sliding.snapped(start)
     while True:
-        found = _smoothed(sliding, snapped, on_corners, floor, rounds)
-        spoilt = quads[sliding.quality(found, quads) < floor]
-        if len(on_corners) == 0 or len(spoilt) == 0:
-            return found
+        places = _rounds(sliding, snapped, _free(sliding, held), floor, rounds)
+        spoilt = sliding.mesh.quads[sliding.quality(places, sliding.mesh.quads) < floor]
+        if len(held) == 0 or len(spoilt) == 0:
+            break
         # Let go of the corners that cost too much; if it is not they, of all.
-        guilty = np.isin(on_corners, spoilt)
-        on_corners = on_corners[~guilty] if guilty.any() else on_corners[:0]
-        snapped = start.put(on_corners, snapped.at(on_corners))
+        guilty = np.isin(held, spoilt)
+        held = held[~guilty] if guilty.any() else held[:0]
+        snapped = start.put(held, snapped.at(held))
+    return _improved(sliding, places, _free(sliding, held), floor, rounds)
+
+
+def _free(sliding: Sliding, held: IntArray) -> IntArray:
+    """Return the vertices that may move, with some held besides those that are fixed."""
+    fixed = sliding.mesh.fixed.copy()
+    fixed[held] = True
+    return np.flatnonzero(~fixed)
 
 
 def _run_along(mesh: QuadMesh, rail: Rail) -> IntArray:
@@ -173,32 +169,23 @@ def _run_along(mesh: QuadMesh, rail: Rail) -> IntArray:
     return np.unique(mesh.edges[near[mesh.edges].all(axis=1)])
 
 
-def _smoothed(
-    sliding: Sliding, places: Places, held: IntArray, floor: FloatArray, rounds: int
+def _improved(
+    sliding: Sliding, places: Places, free: IntArray, floor: FloatArray, rounds: int
 ) -> Places:
-    """Return better places, with the vertices `held` where they are and quads above the floor."""
-    mesh = sliding.mesh
-    fixed = mesh.fixed.copy()
-    fixed[held] = True
-    free = np.flatnonzero(~fixed)
-    sides = _sides(mesh)
+    """Return places with poor quads improved one by one, all others after them."""
     for _ in range(STAGES):
-        places = _rounds(sliding, places, free, floor, sides, rounds)
-        if sliding.quality(places, mesh.quads).min(initial=1.0) >= POOR:
+        if sliding.quality(places, sliding.mesh.quads).min(initial=1.0) >= POOR:
             break
         places = improve_worst(sliding, places, free, floor)
+        places = _rounds(sliding, places, free, floor, rounds)
     return places
 
 
 def _rounds(
-    sliding: Sliding,
-    places: Places,
-    free: IntArray,
-    floor: FloatArray,
-    sides: FloatArray,
-    rounds: int,
+    sliding: Sliding, places: Places, free: IntArray, floor: FloatArray, rounds: int
 ) -> Places:
     """Return the best places of many rounds, which end when they lead to nothing better."""
+    sides = _sides(sliding.mesh)
     quality = sliding.quality(places, sliding.mesh.quads)
     best, best_score, since = places, _score(quality), 0
     for _ in range(rounds):

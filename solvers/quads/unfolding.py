@@ -8,8 +8,6 @@ step are those at its start.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 from scipy.optimize import minimize
 
@@ -43,15 +41,15 @@ REACH = 0.5
 """How far a vertex moves in one step at most, in its shortest side. Chosen."""
 
 
-def unfold(sliding: Sliding, starts: Sequence[Places], free: IntArray, sides: FloatArray) -> Places:
+def unfold(sliding: Sliding, places: Places, free: IntArray, sides: FloatArray) -> Places:
     """Return places where fewer quads are inverted, or else a worst quad that is less so.
 
     Parameters
     ----------
     sliding : Sliding
         What holds the vertices.
-    starts : sequence of Places
-        Where they may be at first, tried one after the other until none is inverted.
+    places : Places
+        Where they are at first.
     free : (k,) int array
         Vertices that may move.
     sides : (2, q) float array
@@ -61,23 +59,10 @@ def unfold(sliding: Sliding, starts: Sequence[Places], free: IntArray, sides: Fl
     -----
     The energy is that of foldover-free maps (Garanzha et al. 2021), in tangent planes.
     """
-    mesh = sliding.mesh
-    may_move = np.zeros(mesh.n_vertices, dtype=bool)
-    may_move[free] = True
-    wanted = graded(mesh.quads, sides)
-    found = []
-    for start in starts:
-        found.append(_from_one(sliding, start, may_move, wanted))
-        if found[-1][0] > (0, 0.0):
-            break
-    return max(found, key=lambda one: one[0])[1]
-
-
-def _from_one(
-    sliding: Sliding, places: Places, may_move: BoolArray, wanted: FloatArray
-) -> tuple[tuple[int, float], Places]:
-    """Return the best places of many steps from one start, and what they are worth."""
     quads = sliding.mesh.quads
+    may_move = np.zeros(sliding.mesh.n_vertices, dtype=bool)
+    may_move[free] = True
+    wanted = graded(quads, sides)
     quality = sliding.quality(places, quads)
     best, best_worth, since = places, worth(quality), 0
     poor = np.zeros(len(quads), dtype=bool)
@@ -91,7 +76,7 @@ def _from_one(
         since += 1
         if worth(quality) > best_worth:
             best, best_worth, since = places, worth(quality), 0
-    return best_worth, best
+    return best
 
 
 def graded(quads: IntArray, sides: FloatArray) -> FloatArray:

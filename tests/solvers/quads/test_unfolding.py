@@ -56,6 +56,6 @@ def test_a_block_pressed_through_its_border_comes_back(power: float) -> None:
     assert (folded.scaled_jacobian <= 0).sum() >= 9
     sliding = Sliding(folded, [], np.where(folded.on_boundary, 0, -1))
     inner = np.flatnonzero(~folded.on_boundary)
-    found = unfold(sliding, [sliding.start()], inner, np.full((2, folded.n_quads), 1 / 12))
+    found = unfold(sliding, sliding.start(), inner, np.full((2, folded.n_quads), 1 / 12))
     assert sliding.quality(found, folded.quads).min() > 0.15
     assert (found.vertices[folded.on_boundary] == folded.vertices[folded.on_boundary]).all()
