@@ -31,7 +31,7 @@ from solvers.fields import CURVATURE_WEIGHT, MOST_VALENCE
 from solvers.kind_checks import one_of_kind
 from solvers.layouts import QuadLayout
 from solvers.number_checks import whole_number
-from solvers.quads import MAX_CHORD, QuadMesh
+from solvers.quads import MAX_CHORD, MAX_SIZE_RATIO, QuadMesh
 
 if TYPE_CHECKING:
     from crossview.export.notebook import NotebookPicture
@@ -453,6 +453,7 @@ def quads(
     edge_length: float | None = None,
     smooth: bool = True,
     max_chord: float = MAX_CHORD,
+    max_size_ratio: float = MAX_SIZE_RATIO,
     progress: Watch = None,
 ) -> QuadMesh:
     """Fill a layout with quads.
@@ -470,6 +471,9 @@ def quads(
     max_chord : float, optional
         Largest distance of an edge from the boundary or feature that it follows, in radii of its
         bend; at most 1.
+    max_size_ratio : float, optional
+        How much longer than the mean edge of all those along an arc of the layout may be, on
+        average, as far as the number of quads allows; above 1.
     progress : callable, optional
         Called with each step.
 
@@ -494,7 +498,7 @@ def quads(
     {3: 4}
     """
     _require("layout", layout, QuadLayout)
-    options = meshes.MeshOptions(edge_length, target_quads, smooth, max_chord)
+    options = meshes.MeshOptions(edge_length, target_quads, smooth, max_chord, max_size_ratio)
     return run(meshes.quads(layout, options), progress)
 
 

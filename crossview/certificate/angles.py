@@ -31,6 +31,9 @@ corner, and over what a coarse surface has for its bend."""
 NO_LENGTH = 1e-9
 """Length of a side that counts as none, in that of the face's longest. Chosen, above rounding."""
 
+SLIVER = 1e-3
+"""Length of a side, in that of its face's longest, below which it has hardly any. Chosen."""
+
 FULL = 361.0
 """Degrees that two faces around a vertex may have together where the surface is flat. Chosen,
 above rounding."""
@@ -94,12 +97,26 @@ class Angles:
         return np.asarray(np.minimum.reduceat(sines, self.faces.starts))
 
     @cached_property
+    def evenness(self) -> Floats:
+        """(m,) a face's shortest side in its longest; 0 where none has a length."""
+        length, starts = self.faces.lengths, self.faces.starts
+        longest = np.maximum.reduceat(length, starts)
+        shortest = np.minimum.reduceat(length, starts)
+        return np.asarray(shortest / np.where(longest > 0, longest, 1))
+
+    @cached_property
     def collapsed(self) -> Bools:
         """(c,) whether one of the two sides at a corner has no length."""
         length = self.faces.lengths
         longest = np.maximum.reduceat(length, self.faces.starts)[self.faces.owner]
         none = length <= NO_LENGTH * longest
         return np.asarray(none | none[self.faces.before])
+
+    @cached_property
+    def slivers(self) -> Bools:
+        """(m,) whether a side of a face has hardly any length, but some."""
+        none = np.bincount(self.faces.owner, self.collapsed) > 0
+        return np.asarray((self.evenness < SLIVER) & ~none)
 
     @cached_property
     def _folded(self) -> Bools:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from crossview.certificate.angles import Angles, corner_angles
+from crossview.certificate.angles import SLIVER, Angles, corner_angles
 from crossview.certificate.distances import Distances
 from crossview.certificate.faces import Faces
 from crossview.certificate.fault import Fault, Measures, first
@@ -123,16 +123,20 @@ def _corners(angles: Angles) -> Measures:
         "inverted_faces": len(np.unique(angles.faces.owner[angles.inverted])),
         "excused_at_valence_2": len(np.unique(angles.faces.corners[angles.excused])),
         "pieces_inside_out": angles.inside_out,
+        "slivers": int(np.count_nonzero(angles.slivers)),
+        "max_side_ratio": float(1 / max(angles.evenness.min(), 1e-300)),
         "min_scaled_jacobian": float(quality.min()),
         "mean_scaled_jacobian": float(quality.mean()),
     }
 
 
 def _corner_faults(angles: Angles) -> list[Fault]:
-    """Inverted faces, and pieces that are inside out."""
+    """Inverted faces, pieces that are inside out, and slivers."""
     inverted = np.unique(angles.faces.owner[angles.inverted])
     said, middles = "with a corner of 180 degrees or more", angles.faces.middles
     faults = [*first("inverted", "inverted face", said, middles[inverted])]
     if angles.inside_out:
         faults.append(Fault("inside out", "the mesh is oriented against the surface"))
+    said = f"with a side shorter than {SLIVER:g} of its longest"
+    faults += first("slivers", "face", said, middles[angles.slivers])
     return faults

@@ -16,7 +16,7 @@ from crossview.workflow.problem import Problem
 from crossview.workflow.quads import MeshOptions
 from solvers.errors import CrossviewError
 from solvers.progress import Progress
-from solvers.quads import MAX_CHORD
+from solvers.quads import MAX_CHORD, MAX_SIZE_RATIO
 
 T = TypeVar("T")
 
@@ -158,11 +158,15 @@ class QuadOptions:
     max_chord
         Largest distance of an edge from the boundary or feature that it follows, in radii of its
         bend; 0.01 if not given.
+    max_size_ratio
+        How much longer than the mean edge of all those along an arc of the layout may be, as far
+        as the number of quads allows; 4 if not given.
     """
 
     edge_length: float | None = None
     target_quads: int | None = None
     max_chord: float | None = None
+    max_size_ratio: float | None = None
 
     def wanted(self, quads: bool, advice: str) -> MeshOptions | None:
         """Return how the quads are to be; None if none are wanted.
@@ -181,7 +185,10 @@ class QuadOptions:
         """
         if quads:
             chord = MAX_CHORD if self.max_chord is None else self.max_chord
-            return MeshOptions(self.edge_length, self.target_quads, max_chord=chord)
+            ratio = MAX_SIZE_RATIO if self.max_size_ratio is None else self.max_size_ratio
+            return MeshOptions(
+                self.edge_length, self.target_quads, max_chord=chord, max_size_ratio=ratio
+            )
         for name, given in vars(self).items():
             if given is not None:
                 raise CrossviewError(f"--{name.replace('_', '-')} is about quads", "", advice)

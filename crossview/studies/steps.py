@@ -13,7 +13,7 @@ from crossview.cases.scalars import Flag, Number, Text, Word
 from crossview.cases.shape import Shape
 from crossview.workflow.quads import MeshOptions
 from solvers.fields import CURVATURE_WEIGHT, MOST_VALENCE, NATURAL_ALIGNMENTS, NATURAL_METHODS
-from solvers.quads import MAX_CHORD
+from solvers.quads import MAX_CHORD, MAX_SIZE_RATIO
 
 
 @dataclass(frozen=True)
@@ -74,6 +74,14 @@ class Quads:
             "of its bend.",
         ),
     )
+    max_size_ratio: float = field(
+        default=MAX_SIZE_RATIO,
+        metadata=key(
+            Number(above=1),
+            "How much longer than the mean edge of all those along an arc of the layout may be, "
+            "as far as the number of quads allows.",
+        ),
+    )
 
     @property
     def mesh_options(self) -> MeshOptions:
@@ -84,7 +92,13 @@ class Quads:
         CrossviewError
             Both a number and a length are given.
         """
-        return MeshOptions(self.edge_length, self.target_quads, self.smooth, self.max_chord)
+        return MeshOptions(
+            self.edge_length,
+            self.target_quads,
+            self.smooth,
+            self.max_chord,
+            self.max_size_ratio,
+        )
 
 
 @documented

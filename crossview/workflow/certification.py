@@ -68,6 +68,7 @@ def reference(problems: Sequence[Problem], imposed: bool, wanted: int | None = N
 
 ADVICE = {
     "inverted": "try another number of quads",
+    "slivers": "try another number of quads",
     "surface": "try more quads",
     "boundary": "try more quads",
     "features": "try more quads",

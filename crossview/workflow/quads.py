@@ -18,14 +18,17 @@ from solvers.number_checks import real_number, whole_number
 from solvers.progress import Progress, between
 from solvers.quads import (
     MAX_CHORD,
+    MAX_SIZE_RATIO,
     MOST_QUADS,
     Condition,
     QuadMesh,
+    Quantization,
     bending_conditions,
     bent_spacing,
     fewest_quads,
     fill,
     quantize_to,
+    size_conditions,
     smooth,
 )
 from solvers.singularities import Singularity, SplitOne
@@ -60,6 +63,9 @@ class MeshOptions:
     max_chord : float
         Largest distance of an edge from the boundary or feature that it follows, in radii of its
         bend; at most 1.
+    max_size_ratio : float
+        How much longer than the mean edge of all those along an arc of the layout may be, on
+        average, as far as the number of quads allows; above 1.
 
     Raises
     ------
@@ -71,6 +77,7 @@ class MeshOptions:
     target_quads: int | None = None
     smooth: bool = True
     max_chord: float = MAX_CHORD
+    max_size_ratio: float = MAX_SIZE_RATIO
 
     def __post_init__(self) -> None:
         if self.edge_length is not None and self.target_quads is not None:
@@ -83,6 +90,7 @@ class MeshOptions:
             quads = whole_number("the number of quads", self.target_quads, 1)
             object.__setattr__(self, "target_quads", quads)
         real_number("the chord error", self.max_chord, above=0, most=1)
+        real_number("the size ratio", self.max_size_ratio, above=1)
 
     def number_on(self, surface: TriSurface) -> int:
         """About how many quads these options make on a surface.
@@ -132,15 +140,25 @@ def quads(layout: QuadLayout, options: MeshOptions) -> Generator[Progress, None,
     for share, vanish in TRIALS:
         begun = len(tried) / len(TRIALS)
         conditions = bends if vanish else bends + each
-        made = _filled(layout, options, max(1, round(share * number)), conditions)
-        tried.append((yield from between(made, begun, begun + 1 / len(TRIALS))))
-        inverted = -tried[-1].worth[0]
+        made = yield from between(
+            _filled(layout, options, max(1, round(share * number)), conditions),
+            begun,
+            begun + 1 / len(TRIALS),
+        )
+        chosen = made.quantization
+        tried.append(replace(made, quantization=chosen and replace(chosen, n_wanted=number)))
+        inverted = -made.worth[0]
         if not options.smooth or not 0 < inverted < MANY:
             break
-    best = max(tried, key=lambda mesh: mesh.worth)
+    best = max(tried, key=_worth)
     best.check()
-    chosen = best.quantization
-    return replace(best, quantization=chosen and replace(chosen, n_wanted=number))
+    return best
+
+
+def _worth(mesh: QuadMesh) -> tuple[bool, bool, tuple[int, float]]:
+    """What meshes are compared by: none inverted, the wanted number met, fewest inverted."""
+    missed = mesh.quantization is not None and mesh.quantization.missed
+    return mesh.worth[0] == 0, not missed, mesh.worth
 
 
 def fewest(layout: QuadLayout) -> int | None:
@@ -166,7 +184,7 @@ def _filled(
 ) -> Generator[Progress, None, QuadMesh]:
     """Fill a layout with about so many quads, whose numbers along arcs meet conditions."""
     yield Progress("choosing numbers of quads", 0.0)
-    chosen = quantize_to(layout.tmesh, number, conditions=conditions)
+    chosen = _quantized(layout, options, number, conditions)
     yield Progress("filling the patches", 0.3)
     spacing = bent_spacing(layout, chosen.counts, options.max_chord)
     filled = replace(fill(layout, chosen.counts, spacing), quantization=chosen)
@@ -176,6 +194,16 @@ def _filled(
         filled = smooth(filled, curves=[curve.vertices for curve in curves])
     yield Progress("checking the quads", 0.9)
     return filled
+
+
+def _quantized(
+    layout: QuadLayout, options: MeshOptions, number: int, conditions: Sequence[Condition]
+) -> Quantization:
+    """Return numbers of quads along arcs; no edges are too long unless that misses the number."""
+    mean = np.sqrt(layout.surface.area / number)
+    sizes = size_conditions(layout, options.max_size_ratio * mean)
+    even = quantize_to(layout.tmesh, number, conditions=[*conditions, *sizes])
+    return quantize_to(layout.tmesh, number, conditions=conditions) if even.missed else even
 
 
 def quads_of(

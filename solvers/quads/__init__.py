@@ -14,10 +14,12 @@ from solvers.quads.quantization import (
     quantize,
     quantize_to,
 )
+from solvers.quads.sizing import MAX_SIZE_RATIO, size_conditions
 from solvers.quads.smoothing import smooth
 
 __all__ = [
     "MAX_CHORD",
+    "MAX_SIZE_RATIO",
     "MOST_QUADS",
     "Condition",
     "QuadMesh",
@@ -29,5 +31,6 @@ __all__ = [
     "quantize",
     "quantize_to",
     "scaled_jacobian",
+    "size_conditions",
     "smooth",
 ]

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
-from solvers.layouts.arrangement import Arrangement
 from solvers.layouts.layout import QuadLayout
-from solvers.layouts.straight import barycentric_in
 from solvers.number_checks import real_number
 from solvers.quads.collapse import Condition
 from solvers.quads.spacing import spread
+from solvers.quads.stretches import Polyline, Stretch, located, polylines, stretches
 from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
 
 MAX_CHORD = 0.01
@@ -20,6 +18,10 @@ MAX_CHORD = 0.01
 
 Chosen: an edge may turn by 16.2 degrees then, and a circle has 23 at least.
 """
+
+TIGHT = 0.75
+"""Turn of edges where vertices are spaced by turning, in what they may turn by. Chosen: a circle of
+edges that turn by so much has nearly half the error in area."""
 
 ON_EDGE = 1e-9
 """Barycentric weight up to which a point lies on an edge. Chosen: far above round-off."""
@@ -74,8 +76,8 @@ def bending_conditions(layout: QuadLayout, max_chord: float = MAX_CHORD) -> list
     turn = _largest_turn(max_chord)
     bent, crossing = _arcs_of_features(layout)
     found = [Condition(np.array([arc]), 1) for arc in np.flatnonzero(crossing).tolist()]
-    for stretch in _stretches(layout.arrangement, bent):
-        found += _of_stretch(stretch, _polylines(layout, stretch.arcs), turn)
+    for stretch in stretches(layout.arrangement, bent):
+        found += _of_stretch(stretch, polylines(layout, stretch.arcs), turn)
     return found
 
 
@@ -119,41 +121,20 @@ def bent_spacing(
     bent = np.flatnonzero(_arcs_of_features(layout)[0] & (counts > 1))
     if len(bent) == 0:
         return {}
-    lines = zip(bent.tolist(), _polylines(layout, bent), strict=True)
+    lines = zip(bent.tolist(), polylines(layout, bent), strict=True)
     spaced = {arc: _spaced(line, int(counts[arc]), turn) for arc, line in lines}
     if all(places is None for places in spaced.values()):
         return {}
     equal = {arc: np.arange(counts[arc] + 1) / counts[arc] for arc in bent.tolist()}
     held = {arc: equal[arc] if places is None else places for arc, places in spaced.items()}
-    every = _polylines(layout, np.arange(layout.tmesh.n_arcs))
-    points = [_shared(line, int(n)) for line, n in zip(every, counts, strict=True)]
+    every = polylines(layout, np.arange(layout.tmesh.n_arcs))
+    points = [line.shared(int(n)) for line, n in zip(every, counts, strict=True)]
     return spread(layout.tmesh, points, counts, held)
 
 
 def _largest_turn(max_chord: float) -> float:
     """Return by how much an edge may turn, radians."""
     return float(2 * np.arccos(1 - real_number("the chord error", max_chord, above=0, most=1)))
-
-
-@dataclass(frozen=True, eq=False)
-class _Stretch:
-    """Consecutive arcs of a curve without a critical node between them; closed: a whole loop."""
-
-    arcs: IntArray
-    closed: bool
-
-
-@dataclass(frozen=True, eq=False)
-class _Polyline:
-    """Points (k, 3) along an arc, and how far along it, in the map, they are."""
-
-    points: FloatArray
-    at: FloatArray
-
-    @property
-    def share(self) -> FloatArray:
-        """Length (k,) up to each point in that of the whole, which may be none."""
-        return np.asarray(self.at / max(float(self.at[-1]), np.finfo(float).tiny))
 
 
 def _arcs_of_features(layout: QuadLayout) -> tuple[BoolArray, BoolArray]:
@@ -163,7 +144,7 @@ def _arcs_of_features(layout: QuadLayout) -> tuple[BoolArray, BoolArray]:
     features = layout.integrated.aligned.features
     if len(features) == 0:
         return bent, np.zeros(len(bent), dtype=bool)
-    face, weights = _located(layout, arrangement.arc_curve, arrangement.arc_span.mean(axis=1))
+    face, weights = located(layout, arrangement.arc_curve, arrangement.arc_span.mean(axis=1))
     corner = weights.argmin(axis=1)
     edge = layout.surface.face_edges[face, (corner + 1) % 3]
     bent |= (weights.min(axis=1) < ON_EDGE) & np.isin(edge, features.edges)
@@ -174,66 +155,14 @@ def _arcs_of_features(layout: QuadLayout) -> tuple[BoolArray, BoolArray]:
     return bent, ~bent & held[ends].all(axis=1) & featured[ends].any(axis=1)
 
 
-def _stretches(arrangement: Arrangement, bent: BoolArray) -> list[_Stretch]:
-    """Return the stretches that bent arcs make, each in the order along its curve."""
-    tmesh, span = arrangement.tmesh, arrangement.arc_span
-    arcs = np.flatnonzero(bent)
-    arcs = arcs[np.lexsort((span[arcs, 0], arrangement.arc_curve[arcs]))]
-    after = np.roll(arcs, -1)
-    curve = arrangement.arc_curve
-    going_on = (curve[arcs] == curve[after]) & (tmesh.arcs[arcs, 1] == tmesh.arcs[after, 0])
-    going_on &= ~tmesh.critical[tmesh.arcs[arcs, 1]]
-    found = []
-    for c in np.unique(curve[arcs]).tolist():
-        on = curve[arcs] == c
-        own, joined = arcs[on], going_on[on]
-        # The last of a curve is followed by the first of the next one, a loop's by its own first.
-        joined[-1] = tmesh.arcs[own[-1], 1] == tmesh.arcs[own[0], 0]
-        joined[-1] &= not tmesh.critical[tmesh.arcs[own[-1], 1]]
-        if joined.all():
-            found.append(_Stretch(own, closed=True))
-            continue
-        first = int(np.flatnonzero(~joined)[-1]) + 1
-        own, joined = np.roll(own, -first), np.roll(joined, -first)
-        cuts = np.flatnonzero(~joined)[:-1] + 1
-        found += [_Stretch(part, closed=False) for part in np.split(own, cuts)]
-    return found
-
-
-def _polylines(layout: QuadLayout, arcs: IntArray) -> list[_Polyline]:
-    """Return the polyline of each arc, with all vertices that it has on the surface."""
-    arrangement = layout.arrangement
-    curves, at, owner = arrangement.curves, [], []
-    for arc in arcs.tolist():
-        start, end = arrangement.arc_span[arc]
-        low, high = curves.offsets[arrangement.arc_curve[arc] + np.arange(2)]
-        places = curves.chords.start[low:high]
-        places = np.concatenate([places, places + curves.chords.end[high - 1]])
-        inner = places[(places > start) & (places < end)]
-        at.append(np.concatenate([[start], inner, [end]]))
-        owner.append(np.full(len(at[-1]), arrangement.arc_curve[arc]))
-    face, weights = _located(layout, np.concatenate(owner), np.concatenate(at))
-    corners = layout.surface.vertices[layout.surface.faces[face]]
-    points = np.einsum("kc,kcd->kd", weights, corners)
-    cuts = np.cumsum([len(a) for a in at])[:-1]
-    return [_Polyline(p, a - a[0]) for p, a in zip(np.split(points, cuts), at, strict=True)]
-
-
-def _located(layout: QuadLayout, curve: IntArray, at: FloatArray) -> tuple[IntArray, FloatArray]:
-    """Return the surface's triangles (k,) and weights (k, 3) of places along curves."""
-    curves = layout.arrangement.curves
-    face, place, _ = curves.faces_at(curve, at)
-    return curves.chart.working.lift_points(face, barycentric_in(curves.chart, face, place))
-
-
-def _of_stretch(stretch: _Stretch, polylines: Sequence[_Polyline], turn: float) -> list[Condition]:
+def _of_stretch(stretch: Stretch, polylines: Sequence[Polyline], turn: float) -> list[Condition]:
     """Return the conditions of its arcs, of windows that one edge may not span, and of all."""
     arcs, k = stretch.arcs, len(stretch.arcs)
     need = np.array([_edges_for(line, turn) for line in polylines])
     found = [Condition(arcs[[i]], int(need[i])) for i in np.flatnonzero(need > 1)]
     if k == 1:
         return found
-    whole = _edges_for(_chained(polylines), turn)
+    whole = _edges_for(Polyline.chained(polylines), turn)
     if whole > need.sum():
         found.append(Condition(np.unique(arcs), whole))
     lines = [*polylines, *polylines] if stretch.closed else polylines
@@ -241,48 +170,33 @@ def _of_stretch(stretch: _Stretch, polylines: Sequence[_Polyline], turn: float) 
         for j in range(i + 1, min(i + k, len(lines))):
             if (need[np.arange(i, j + 1) % k] > 1).any():
                 break
-            if _edges_for(_chained(lines[i : j + 1]), turn) > 1:
+            if _edges_for(Polyline.chained(lines[i : j + 1]), turn) > 1:
                 found.append(Condition(np.unique(arcs[np.arange(i, j + 1) % k]), 2))
                 break
     return found
 
 
-def _chained(lines: Sequence[_Polyline]) -> _Polyline:
-    """Return one polyline along several that follow each other."""
-    first = np.concatenate([[0.0], np.cumsum([line.at[-1] for line in lines])])
-    points = [lines[0].points[:1], *(line.points[1:] for line in lines)]
-    at = [np.zeros(1), *(line.at[1:] + a for line, a in zip(lines, first[:-1], strict=True))]
-    return _Polyline(np.concatenate(points), np.concatenate(at))
-
-
-def _edges_for(line: _Polyline, turn: float) -> int:
+def _edges_for(line: Polyline, turn: float) -> int:
     """Return the least number of edges, of equal shares or spaced, none of which is off by much."""
     turning = _turning(line, turn)
     most = max(1, int(np.ceil(turning.sum() / turn - 1e-6)))
     return next((n for n in range(1, most) if _follow(line, turning, n, turn)), most)
 
 
-def _spaced(line: _Polyline, n: int, turn: float) -> FloatArray | None:
+def _spaced(line: Polyline, n: int, turn: float) -> FloatArray | None:
     """Return where (n + 1,) vertices are so that edges follow, from 0 to 1; None if equally far."""
+    turn *= TIGHT
     turning = _turning(line, turn)
     if n < 2 or _follow(line, turning, n, turn):
         return None
-    # A vertex's turn is spread over the steps beside it.
-    total = np.cumsum(turning) - 0.5 * turning
+    total = _total(turning)
     bends = min(1.0, total[-1] / (n * turn))
     even = line.share
     share = (1 - bends) * even + bends * total / total[-1]
     return np.asarray(np.interp(np.arange(n + 1) / n, share, even))
 
 
-def _shared(line: _Polyline, n: int) -> FloatArray:
-    """Return the ends (n + 1, 3) of n edges of equal shares."""
-    share = line.share * n
-    columns = [np.interp(np.arange(n + 1), share, column) for column in line.points.T]
-    return np.stack(columns, axis=1)
-
-
-def _turning(line: _Polyline, turn: float) -> FloatArray:
+def _turning(line: Polyline, turn: float) -> FloatArray:
     """Return the turn (k,) at each point, at most as much as an edge may turn by.
 
     No number of edges follows a corner between two steps better than one that ends at it.
@@ -295,11 +209,16 @@ def _turning(line: _Polyline, turn: float) -> FloatArray:
     return np.concatenate([[0.0], np.minimum(angle, turn), [0.0]])
 
 
-def _follow(line: _Polyline, turning: FloatArray, n: int, turn: float) -> bool:
+def _total(turning: FloatArray) -> FloatArray:
+    """Return the turn (k,) up to each point; that at a point is spread over the steps beside it."""
+    return np.asarray(np.cumsum(turning) - 0.5 * turning)
+
+
+def _follow(line: Polyline, turning: FloatArray, n: int, turn: float) -> bool:
     """Return whether n edges of equal shares turn by little, or are off by little."""
-    share, ends = line.share * n, _shared(line, n)
+    share, ends = line.share * n, line.shared(n)
     edge = np.clip(share.astype(np.int64), 0, n - 1)
-    much = np.bincount(edge, turning, minlength=n) > turn * (1 + 1e-6)
+    much = np.diff(np.interp(np.arange(n + 1), share, _total(turning))) > turn * (1 + 1e-6)
     along = np.diff(ends, axis=0)
     square = np.einsum("kd,kd->k", along, along)[edge]
     beside = line.points - ends[edge]

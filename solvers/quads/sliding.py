@@ -18,6 +18,12 @@ REACH = 0.4
 Less than a half, so that two neighbours never pass each other.
 """
 
+SLIM = 50.0
+"""Longest side of a quad, in its shortest, beyond which it counts as poorer.
+
+Measured: without, sides shrink to 1e-9 of others where fields stretch; with 300, poorer quads stay.
+"""
+
 SAME_PLACE = 1e-9
 """Distance, in diagonals of the surface, that counts as none. Chosen, above rounding."""
 
@@ -89,8 +95,12 @@ class Sliding:
         return Places(mesh.vertices, mesh.faces, mesh.barycentric, s)
 
     def quality(self, places: Places, quads: IntArray) -> FloatArray:
-        """Return the scaled Jacobians of quads (..., 4) given by their vertices."""
-        return self._planes.quality(places.faces, places.weights, places.vertices, quads)
+        """Return the scaled Jacobians of quads (..., 4), given by vertices; less of slim ones."""
+        found = self._planes.quality(places.faces, places.weights, places.vertices, quads)
+        corners = places.vertices[quads]
+        length = np.linalg.norm(np.roll(corners, -1, axis=-2) - corners, axis=-1)
+        longest = np.maximum(length.max(axis=-1), 1e-300)
+        return np.asarray(np.minimum(found, SLIM * length.min(axis=-1) / longest))
 
     def normals(self, places: Places, quads: IntArray) -> FloatArray:
         """Return the surface's normals (..., 4, 3) at the corners of quads (..., 4)."""

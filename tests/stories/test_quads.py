@@ -172,6 +172,27 @@ def test_quads_of_an_edge_length(hand: Hand) -> None:
     assert panel.options.edge_length is None
 
 
+def test_edges_much_longer_than_the_others_are_made_shorter(hand: Hand, tmp_path: Path) -> None:
+    """Of an annulus where sizes span 50, with the singularities across from each other."""
+    case = json.loads(Path(path_of("annulus-pair-stretched")).read_text())
+    case["singularities"][1]["position"] = [-0.75, 0, 0]
+    (tmp_path / "across.json").write_text(json.dumps(case))
+    hand.open(str(tmp_path / "across.json"))
+    panel = hand.window.quads_panel
+    panel.count_box.setValue(1500)
+
+    def longest() -> float:
+        before = hand.state.made.quads
+        panel.button.click()
+        hand.wait(lambda: hand.state.made.quads not in (None, before))
+        assert hand.state.made.quads is not None
+        return float(hand.state.made.quads.edge_lengths.max())
+
+    bounded = longest()
+    panel.ratio_box.setValue(panel.ratio_box.maximum())
+    assert bounded < 0.8 * longest()
+
+
 def test_an_edit_takes_the_quads_away_and_undo_brings_them_back(hand: Hand) -> None:
     hand.open("disk-4")
     hand.trigger("mesh")

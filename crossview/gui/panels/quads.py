@@ -37,7 +37,7 @@ from crossview.workflow.quads import DEFAULT_QUADS, MeshOptions
 from crossview.workflow.spots import GOOD as GOOD_QUAD
 from crossview.workflow.spots import Spot
 from solvers.errors import CrossviewError
-from solvers.quads import MAX_CHORD, MOST_QUADS
+from solvers.quads import MAX_CHORD, MAX_SIZE_RATIO, MOST_QUADS
 from solvers.surface import TriSurface
 
 COUNT, LENGTH = range(2)
@@ -99,6 +99,18 @@ class QuadsPanel(QScrollArea):
         self.chord_box.setToolTip(
             "How far an edge may be from the boundary or feature it follows, in radii of its bend"
         )
+        self.ratio_box = QDoubleSpinBox()
+        self.ratio_box.setDecimals(1)
+        self.ratio_box.setRange(1.1, 100.0)
+        self.ratio_box.setSingleStep(0.5)
+        self.ratio_box.setValue(MAX_SIZE_RATIO)
+        self.ratio_box.setSuffix(" × mean")
+        self.ratio_box.setLocale(QLocale.c())
+        self.ratio_box.setAccessibleName("Size ratio: edges along an arc, in the mean edge")
+        self.ratio_box.setToolTip(
+            "How much longer than the mean edge of all those along an arc of the layout may be, "
+            "as far as the number of quads allows"
+        )
         self.button = QPushButton(make.text())
         put_icon(self.button, "mesh")
         self.button.setToolTip(make.toolTip())
@@ -139,6 +151,7 @@ class QuadsPanel(QScrollArea):
             target_quads=self.count_box.value() if by_count else None,
             smooth=self.smooth.isChecked(),
             max_chord=self.chord_box.value() / 100.0,
+            max_size_ratio=self.ratio_box.value(),
         )
 
     def show_state(self, old: SessionState, new: SessionState) -> None:
@@ -218,11 +231,13 @@ class QuadsPanel(QScrollArea):
         wanted.addWidget(self.unit)
         wanted.addWidget(self.boxes, 1)
         layout.addLayout(wanted)
-        bends = QHBoxLayout()
-        bends.setSpacing(6)
-        bends.addWidget(QLabel("Off bends"))
-        bends.addWidget(self.chord_box, 1)
-        layout.addLayout(bends)
+        for name, box in (("Off bends", self.chord_box), ("Size ratio", self.ratio_box)):
+            box.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+            bound = QHBoxLayout()
+            bound.setSpacing(6)
+            bound.addWidget(QLabel(name))
+            bound.addWidget(box, 1)
+            layout.addLayout(bound)
         layout.addWidget(self.smooth)
         layout.addWidget(self.button)
         said = QHBoxLayout()

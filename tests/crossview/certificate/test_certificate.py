@@ -96,6 +96,19 @@ def test_a_side_without_length_is_inverted() -> None:
     assert found.inverted == 2  # of the four around, two share the side
 
 
+def test_a_side_of_hardly_any_length_is_told() -> None:
+    # the vertex in the middle goes along an edge to near its other end
+    mesh = square(4)
+    for gap, found in ((2e-4, {"slivers"}), (2e-2, set())):
+        near = certify(moved(mesh, 12, mesh.points[13] - [gap / 4, 0, 0]), unit_square())
+        assert kinds(near) == found
+        assert near.inverted == 0
+        assert near.measures["corners"]["max_side_ratio"] == pytest.approx(
+            np.hypot(1 - gap, 1) / gap
+        )
+    assert near.measures["corners"]["slivers"] == 0
+
+
 def test_a_corner_of_180_degrees_or_more_at_a_valence_2_is_excused_and_told() -> None:
     for middle in (0.5, 0.6):
         points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [middle, 1 - middle, 0]])

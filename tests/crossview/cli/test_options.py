@@ -13,8 +13,24 @@ TAKEN = {
     "complete": SURFACE,
     "make-valid": SURFACE,
     "natural": (*SURFACE, "features"),
-    "solve": (*SURFACE, "features", "method", "edge-length", "target-quads", "max-chord"),
-    "render": (*SURFACE, "features", "method", "edge-length", "target-quads", "max-chord"),
+    "solve": (
+        *SURFACE,
+        "features",
+        "method",
+        "edge-length",
+        "target-quads",
+        "max-chord",
+        "max-size-ratio",
+    ),
+    "render": (
+        *SURFACE,
+        "features",
+        "method",
+        "edge-length",
+        "target-quads",
+        "max-chord",
+        "max-size-ratio",
+    ),
 }
 
 

@@ -301,6 +301,9 @@ def test_of_all_components_the_one_that_misses_its_budget_is_named(
         (["--quads", "--edge-length", "-1"], "the edge length must be a positive number, not -1"),
         (["--quads", "--edge-length", "nan"], "the edge length must be a positive number, not nan"),
         (["--quads", "--edge-length", "fine"], "--edge-length"),
+        (["--max-size-ratio", 3], "--max-size-ratio is about quads: add --quads"),
+        (["--quads", "--max-size-ratio", "1"], "the size ratio must be"),
+        (["--quads", "--max-chord", "2"], "the chord error must be"),
         (
             ["--quads", "--target-quads=-5"],
             "must be a whole number, at least 1, not -5",

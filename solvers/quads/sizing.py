@@ -1,0 +1,67 @@
+"""How many edges arcs need for none to be much longer than the others."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from solvers.layouts.layout import QuadLayout
+from solvers.number_checks import real_number
+from solvers.quads.collapse import Condition
+from solvers.quads.integer_program import WHOLE
+from solvers.quads.stretches import polylines, stretches
+
+MAX_SIZE_RATIO = 4.0
+"""Mean length of the edges along an arc, at most, in the mean edge of all.
+
+Measured on annuli where sizes span 30 to 55: with 4.5 more than 0.5 % of the area is lost and
+edges are off by 1.3 % of the radius, with 3.5 quads become poorer and single edges longer.
+"""
+
+
+def size_conditions(layout: QuadLayout, longest: float) -> list[Condition]:
+    """Return how many edges arcs need so that these are not longer than some length, on average.
+
+    Parameters
+    ----------
+    layout : QuadLayout
+        The rectangles on the surface.
+    longest : float
+        The length, on the surface.
+
+    Returns
+    -------
+    list of Condition
+        For single arcs, and for consecutive ones that are longer together.
+
+    Raises
+    ------
+    CrossviewError
+        If the length is not positive.
+
+    Examples
+    --------
+    The four sides of a square:
+
+    >>> from solvers import run
+    >>> from solvers.fields import IntegratedField, aligned_field, prepare
+    >>> from solvers.layouts import quad_layout
+    >>> from solvers.primitives import square
+    >>> from solvers.quads import size_conditions
+    >>> aligned = aligned_field(prepare(square(n=4)))
+    >>> layout = run(quad_layout(IntegratedField(aligned, aligned.start)))
+    >>> [condition.least for condition in size_conditions(layout, 0.3)]
+    [3, 3, 3, 3]
+    """
+    longest = real_number("the longest edge", longest, above=0)
+    every = np.arange(layout.tmesh.n_arcs)
+    wanted = np.array([line.length for line in polylines(layout, every)]) / longest
+    found = []
+    for stretch in stretches(layout.arrangement, np.ones(len(every), dtype=bool)):
+        first, total = 0, 0.0
+        for k, arc in enumerate(stretch.arcs.tolist()):
+            total += wanted[arc]
+            least = int(total + WHOLE)
+            if least:
+                found.append(Condition(np.unique(stretch.arcs[first : k + 1]), least))
+                first, total = k + 1, 0.0
+    return found
