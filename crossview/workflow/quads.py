@@ -34,12 +34,29 @@ from solvers.quads import (
 from solvers.singularities import Singularity, SplitOne
 from solvers.surface import TriSurface
 
-TRIALS = ((1.0, True), (0.97, True), (1.03, True), (0.95, True), (1.05, True), (1.0, False))
-"""Shares of the wanted number, and whether arcs may vanish, that are tried one after the other
-until no quad is inverted.
+
+@dataclass(frozen=True)
+class _Trial:
+    """What is tried: a share of the wanted number, edges that bend little, arcs that may vanish."""
+
+    share: float = 1.0
+    bend_little: bool = False
+    may_vanish: bool = True
+
+
+TRIALS = (
+    _Trial(),
+    _Trial(bend_little=True),
+    *(_Trial(share) for share in (0.97, 1.03, 0.95, 1.05)),
+    _Trial(may_vanish=False),
+)
+"""What is tried one after the other until no quad is inverted.
 
 Chosen: such numbers still meet the wanted one, and where arcs vanish singularities come together.
 """
+
+LITTLE = np.radians(45.0)
+"""By how much, radians, edges that bend little turn. Chosen."""
 
 MANY = 8
 """Inverted quads from which on no other numbers are tried. Measured: those never mended so many."""
@@ -137,11 +154,12 @@ def quads(layout: QuadLayout, options: MeshOptions) -> Generator[Progress, None,
     bends = bending_conditions(layout, options.max_chord)
     each = [Condition(np.array([arc]), 1) for arc in range(layout.tmesh.n_arcs)]
     tried: list[QuadMesh] = []
-    for share, vanish in TRIALS:
+    for trial in TRIALS:
         begun = len(tried) / len(TRIALS)
-        conditions = bends if vanish else bends + each
+        conditions = bends if trial.may_vanish else bends + each
+        turn = LITTLE if trial.bend_little else None
         made = yield from between(
-            _filled(layout, options, max(1, round(share * number)), conditions),
+            _filled(layout, options, max(1, round(trial.share * number)), conditions, turn),
             begun,
             begun + 1 / len(TRIALS),
         )
@@ -180,11 +198,15 @@ def fewest(layout: QuadLayout) -> int | None:
 
 
 def _filled(
-    layout: QuadLayout, options: MeshOptions, number: int, conditions: Sequence[Condition]
+    layout: QuadLayout,
+    options: MeshOptions,
+    number: int,
+    conditions: Sequence[Condition],
+    turn: float | None,
 ) -> Generator[Progress, None, QuadMesh]:
     """Fill a layout with about so many quads, whose numbers along arcs meet conditions."""
     yield Progress("choosing numbers of quads", 0.0)
-    chosen = _quantized(layout, options, number, conditions)
+    chosen = _quantized(layout, options, number, conditions, turn)
     yield Progress("filling the patches", 0.3)
     spacing = bent_spacing(layout, chosen.counts, options.max_chord)
     filled = replace(fill(layout, chosen.counts, spacing), quantization=chosen)
@@ -197,11 +219,15 @@ def _filled(
 
 
 def _quantized(
-    layout: QuadLayout, options: MeshOptions, number: int, conditions: Sequence[Condition]
+    layout: QuadLayout,
+    options: MeshOptions,
+    number: int,
+    conditions: Sequence[Condition],
+    turn: float | None,
 ) -> Quantization:
-    """Return numbers of quads along arcs; no edges are too long unless that misses the number."""
+    """Return numbers of edges, none of which is too long, or turns much, unless that needs more."""
     mean = np.sqrt(layout.surface.area / number)
-    sizes = size_conditions(layout, options.max_size_ratio * mean)
+    sizes = size_conditions(layout, options.max_size_ratio * mean, turn)
     even = quantize_to(layout.tmesh, number, conditions=[*conditions, *sizes])
     return quantize_to(layout.tmesh, number, conditions=conditions) if even.missed else even
 

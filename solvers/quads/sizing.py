@@ -18,25 +18,34 @@ edges are off by 1.3 % of the radius, with 3.5 quads become poorer and single ed
 """
 
 
-def size_conditions(layout: QuadLayout, longest: float) -> list[Condition]:
-    """Return how many edges arcs need so that these are not longer than some length, on average.
+def size_conditions(
+    layout: QuadLayout, longest: float, turn: float | None = None
+) -> list[Condition]:
+    """Return how many edges arcs need so that these are neither too long nor too bent, on average.
 
     Parameters
     ----------
     layout : QuadLayout
         The rectangles on the surface.
     longest : float
-        The length, on the surface.
+        How long they may be, on the surface.
+    turn : float, optional
+        By how much, radians, the surface may turn along one; by any if not given.
 
     Returns
     -------
     list of Condition
-        For single arcs, and for consecutive ones that are longer together.
+        For single arcs, and for consecutive ones that are longer, or bend by more, together.
 
     Raises
     ------
     CrossviewError
-        If the length is not positive.
+        If the length or the turn is not positive.
+
+    Notes
+    -----
+    Where the surface bends by more at once, as over a crease, one edge's turn is counted: no number
+    of edges follows it.
 
     Examples
     --------
@@ -54,7 +63,10 @@ def size_conditions(layout: QuadLayout, longest: float) -> list[Condition]:
     """
     longest = real_number("the longest edge", longest, above=0)
     every = np.arange(layout.tmesh.n_arcs)
-    wanted = np.array([line.length for line in polylines(layout, every)]) / longest
+    turn = np.inf if turn is None else real_number("the largest turn", turn, above=0)
+    wanted = []
+    for line in polylines(layout, every):
+        wanted.append(np.maximum(line.lengths / longest, np.minimum(line.turns / turn, 1)).sum())
     found = []
     for stretch in stretches(layout.arrangement, np.ones(len(every), dtype=bool)):
         first, total = 0, 0.0

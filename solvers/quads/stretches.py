@@ -10,6 +10,7 @@ import numpy as np
 from solvers.layouts.arrangement import Arrangement
 from solvers.layouts.layout import QuadLayout
 from solvers.layouts.straight import barycentric_in
+from solvers.quads.corners import unit
 from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
 
 
@@ -39,10 +40,13 @@ class Polyline:
         Points along it.
     at : (k,) float array
         How far along it, in the map, they are.
+    normals : (k, 3) float array
+        The surface's there, between vertices interpolated.
     """
 
     points: FloatArray
     at: FloatArray
+    normals: FloatArray
 
     @property
     def share(self) -> FloatArray:
@@ -50,9 +54,20 @@ class Polyline:
         return np.asarray(self.at / max(float(self.at[-1]), np.finfo(float).tiny))
 
     @property
-    def length(self) -> float:
-        """Length on the surface."""
-        return float(np.linalg.norm(np.diff(self.points, axis=0), axis=1).sum())
+    def lengths(self) -> FloatArray:
+        """(k - 1,) lengths of its steps on the surface."""
+        return np.asarray(np.linalg.norm(np.diff(self.points, axis=0), axis=1))
+
+    @property
+    def turns(self) -> FloatArray:
+        """(k - 1,) by how much, radians, the surface's normal turns in its direction at each step.
+
+        That is the arc's own turn out of the tangent planes, whose curvature is the normal one.
+        """
+        steps = np.diff(self.points, axis=0)
+        along = steps / np.maximum(self.lengths, np.finfo(float).tiny)[:, None]
+        turned = np.abs((np.diff(self.normals, axis=0) * along).sum(axis=1))
+        return np.asarray(2 * np.arcsin(np.minimum(0.5 * turned, 1.0)))
 
     def shared(self, n: int) -> FloatArray:
         """Return the ends (n + 1, 3) of n edges of equal shares."""
@@ -66,7 +81,8 @@ class Polyline:
         first = np.concatenate([[0.0], np.cumsum([line.at[-1] for line in lines])])
         points = [lines[0].points[:1], *(line.points[1:] for line in lines)]
         at = [np.zeros(1), *(line.at[1:] + a for line, a in zip(lines, first[:-1], strict=True))]
-        return cls(np.concatenate(points), np.concatenate(at))
+        normals = [lines[0].normals[:1], *(line.normals[1:] for line in lines)]
+        return cls(np.concatenate(points), np.concatenate(at), np.concatenate(normals))
 
 
 def stretches(arrangement: Arrangement, some: BoolArray) -> list[Stretch]:
@@ -110,8 +126,11 @@ def polylines(layout: QuadLayout, arcs: IntArray) -> list[Polyline]:
     face, weights = located(layout, np.concatenate(owner), np.concatenate(at))
     corners = layout.surface.vertices[layout.surface.faces[face]]
     points = np.einsum("kc,kcd->kd", weights, corners)
+    normals = layout.surface.vertex_normals[layout.surface.faces[face]]
+    normals = unit(np.einsum("kc,kcd->kd", weights, normals))
     cuts = np.cumsum([len(a) for a in at])[:-1]
-    return [Polyline(p, a - a[0]) for p, a in zip(np.split(points, cuts), at, strict=True)]
+    split = zip(np.split(points, cuts), at, np.split(normals, cuts), strict=True)
+    return [Polyline(p, a - a[0], n) for p, a, n in split]
 
 
 def located(layout: QuadLayout, curve: IntArray, at: FloatArray) -> tuple[IntArray, FloatArray]:

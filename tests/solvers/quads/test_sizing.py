@@ -19,7 +19,7 @@ from tests.solvers.layouts.fields import at_places, integrated, layout_of
 
 def lengths(layout: QuadLayout) -> FloatArray:
     every = np.arange(layout.tmesh.n_arcs)
-    return np.array([line.length for line in polylines(layout, every)], dtype=float)
+    return np.array([line.lengths.sum() for line in polylines(layout, every)], dtype=float)
 
 
 @pytest.mark.parametrize("name", ["square", "disk with four", "ring of eight", "cube sphere"])
@@ -37,6 +37,22 @@ def test_conditions_ask_for_whole_edges_of_their_arcs_each_arc_once(
         assert together - 1 < condition.least <= together + 1e-6
     assert asked.max() == 1
     assert (asked[length >= longest] == 1).all()
+
+
+def test_on_the_unit_sphere_edges_turn_by_their_length() -> None:
+    layout = layout_of("cube sphere")
+    every = np.arange(layout.tmesh.n_arcs)
+    for line in polylines(layout, every):
+        assert line.turns.sum() == pytest.approx(line.lengths.sum(), rel=0.01)
+    asked = size_conditions(layout, 100.0, np.radians(10))
+    same = size_conditions(layout, 0.99 * np.radians(10))
+    assert [c.least for c in asked] == [c.least for c in same]
+    assert sum(c.least for c in asked) > len(every)
+
+
+def test_flat_land_asks_for_nothing_by_its_turns() -> None:
+    layout = layout_of("ring of eight")
+    assert size_conditions(layout, 2 * float(lengths(layout).sum()), 0.01) == []
 
 
 def test_nothing_is_asked_where_all_is_short() -> None:
