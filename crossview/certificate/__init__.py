@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from crossview.certificate.certificate import Certificate, certify
+from crossview.certificate.certificate import Certificate, certify, certify_corners
 from crossview.certificate.faces import Faces
 from crossview.certificate.fault import Fault
 from crossview.certificate.reference import Irregular, Reference, Sizes
@@ -15,4 +15,5 @@ __all__ = [
     "Reference",
     "Sizes",
     "certify",
+    "certify_corners",
 ]

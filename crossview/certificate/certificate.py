@@ -63,6 +63,24 @@ class Certificate:
         return {"right": self.right, "faults": faults, **self.measures}
 
 
+def certify_corners(mesh: Faces, reference: Reference) -> tuple[Measures, list[Fault]]:
+    """Check the corners of a mesh alone.
+
+    Parameters
+    ----------
+    mesh, reference
+        As of `certify`.
+
+    Returns
+    -------
+    dict
+        As "corners" among the measures of a certificate.
+    list of Fault
+    """
+    angles = corner_angles(mesh, reference.triangles, reference.ground)
+    return _corners(angles), _corner_faults(angles)
+
+
 def certify(mesh: Faces, reference: Reference) -> Certificate:
     """Check a mesh of polygons; nothing of how it was made is known or asked.
 
@@ -81,18 +99,18 @@ def certify(mesh: Faces, reference: Reference) -> Certificate:
     if not area(fans(mesh)[0]) > 0:
         raise CrossviewError("the mesh has no area")
     edge = float(np.sqrt(reference.area / len(mesh.sizes)))
-    angles = corner_angles(mesh, reference.triangles, reference.ground)
+    corners, corner_faults = certify_corners(mesh, reference)
     distances = Distances(mesh, reference, edge)
     measures: Measures = {
         "counts": counts(mesh),
         "topology": {"mesh": topology(mesh), "surface": topology(reference.surface)},
-        "corners": _corners(angles),
+        "corners": corners,
         "mean_edge": edge,
         "distances": distances.measures,
     }
     faults = [
         *topology_faults(mesh, reference.surface),
-        *_corner_faults(angles),
+        *corner_faults,
         *distances.faults,
     ]
     names = ("irregular", "irregular_on_boundary")

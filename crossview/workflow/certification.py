@@ -5,18 +5,28 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import NamedTuple
 from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from crossview.certificate import Certificate, Faces, Fault, Irregular, Reference, Sizes, certify
+from crossview.certificate import (
+    Certificate,
+    Faces,
+    Fault,
+    Irregular,
+    Reference,
+    Sizes,
+    certify,
+    certify_corners,
+)
 from crossview.io import read_polygons
 from crossview.workflow.problem import Problem
 from crossview.workflow.solution import Solution
 from solvers.errors import CrossviewError, counted
 from solvers.features import Features
 from solvers.quads import QuadMesh
-from solvers.surface import FloatArray
+from solvers.surface import FloatArray, TriSurface
 
 
 def faces_in(path: str | Path) -> Faces:
@@ -38,6 +48,11 @@ def faces_in(path: str | Path) -> Faces:
 def faces_of(mesh: QuadMesh) -> Faces:
     """The faces of a quad mesh."""
     return Faces.of_one_size(mesh.vertices, mesh.quads)
+
+
+def own_surface(surface: TriSurface) -> Reference:
+    """Return what a mesh on a surface is checked against: that alone."""
+    return Reference(Faces.of_one_size(surface.vertices, surface.faces))
 
 
 def reference(problems: Sequence[Problem], imposed: bool, wanted: int | None = None) -> Reference:
@@ -76,6 +91,12 @@ ADVICE = {
 }
 """What helps against kinds of faults."""
 
+SAFE = 0.3
+"""Least scaled Jacobian above which the certificate is not asked whether quads are inverted.
+
+Chosen: the two measure normals in different ways.
+"""
+
 _GIVEN: WeakKeyDictionary[QuadMesh, Certificate] = WeakKeyDictionary()
 """Certificates of meshes that still are: report and summary ask one after the other."""
 
@@ -94,15 +115,51 @@ def certified(solution: Solution, mesh: QuadMesh) -> Certificate:
     return _GIVEN[mesh]
 
 
+class Worth(NamedTuple):
+    """What meshes are compared by, the most important first.
+
+    Parameters
+    ----------
+    upright : bool
+        Whether no quad is inverted.
+    met : bool
+        Whether there are as many as were wanted.
+    fewest : int
+        Number of inverted quads, negative.
+    quality : float
+        Least scaled Jacobian.
+    """
+
+    upright: bool
+    met: bool
+    fewest: int
+    quality: float
+
+
+def worth(mesh: QuadMesh, surface: Reference) -> Worth:
+    """What a mesh is worth on its surface; the certificate decides unless all quads are good.
+
+    Parameters
+    ----------
+    mesh : QuadMesh
+    surface : Reference
+        As of `own_surface`.
+    """
+    met = mesh.quantization is None or not mesh.quantization.missed
+    quality = float(mesh.scaled_jacobian.min(initial=1.0))
+    if quality > SAFE:
+        return Worth(True, met, 0, quality)
+    corners, _ = certify_corners(faces_of(mesh), surface)
+    inverted = int(corners["inverted_faces"])
+    return Worth(inverted == 0, met, -inverted, float(corners["min_scaled_jacobian"]))
+
+
 def inverted(mesh: QuadMesh) -> Fault | None:
     """What the certificate of a mesh says of inverted quads; None: there are none.
 
     Of a mesh that has no certificate yet one is made, on its own surface.
     """
-    surface = mesh.surface
-    own = _GIVEN.get(mesh) or certify(
-        faces_of(mesh), Reference(Faces.of_one_size(surface.vertices, surface.faces))
-    )
+    own = _GIVEN.get(mesh) or certify(faces_of(mesh), own_surface(mesh.surface))
     return next((fault for fault in own.faults if fault.kind == "inverted"), None)
 
 

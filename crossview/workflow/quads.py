@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from crossview.cases.model import PlacedSingularity
+from crossview.workflow.certification import Worth, own_surface, worth
 from crossview.workflow.layout import layout
 from crossview.workflow.solution import Solution
 from solvers.errors import CrossviewError, SolveError
@@ -153,7 +154,8 @@ def quads(layout: QuadLayout, options: MeshOptions) -> Generator[Progress, None,
     require_closing(layout.integrated.field.singularities)
     bends = bending_conditions(layout, options.max_chord)
     each = [Condition(np.array([arc]), 1) for arc in range(layout.tmesh.n_arcs)]
-    tried: list[QuadMesh] = []
+    surface = own_surface(layout.surface)
+    tried: list[tuple[Worth, QuadMesh]] = []
     for trial in TRIALS:
         begun = len(tried) / len(TRIALS)
         conditions = bends if trial.may_vanish else bends + each
@@ -164,19 +166,14 @@ def quads(layout: QuadLayout, options: MeshOptions) -> Generator[Progress, None,
             begun + 1 / len(TRIALS),
         )
         chosen = made.quantization
-        tried.append(replace(made, quantization=chosen and replace(chosen, n_wanted=number)))
-        inverted = -made.worth[0]
-        if not options.smooth or not 0 < inverted < MANY:
+        made = replace(made, quantization=chosen and replace(chosen, n_wanted=number))
+        found = worth(made, surface)
+        tried.append((found, made))
+        if not options.smooth or found.upright or found.fewest <= -MANY:
             break
-    best = max(tried, key=_worth)
+    best = max(tried, key=lambda one: one[0])[1]
     best.check()
     return best
-
-
-def _worth(mesh: QuadMesh) -> tuple[bool, bool, tuple[int, float]]:
-    """What meshes are compared by: none inverted, the wanted number met, fewest inverted."""
-    missed = mesh.quantization is not None and mesh.quantization.missed
-    return mesh.worth[0] == 0, not missed, mesh.worth
 
 
 def fewest(layout: QuadLayout) -> int | None:

@@ -75,19 +75,7 @@ class TangentPlanes:
     def quality(
         self, faces: IntArray, weights: FloatArray, places: FloatArray, quads: IntArray
     ) -> FloatArray:
-        """Return the scaled Jacobians (...) of quads on the surface: the least of their `sines`.
-
-        Parameters
-        ----------
-        faces, weights, places, quads
-            As of `corner_normals`.
-        """
-        return np.asarray(self.sines(faces, weights, places, quads).min(axis=-1))
-
-    def sines(
-        self, faces: IntArray, weights: FloatArray, places: FloatArray, quads: IntArray
-    ) -> FloatArray:
-        """Return the sines (..., 4) of the corners of quads on the surface, as `corner_sines`.
+        """Return the scaled Jacobians (...) of quads on the surface.
 
         A corner on a crease that has 180 degrees or more seen along the mean of the normals all
         around it, on both sides, counts as inverted, too: what lies on one side never has.
@@ -108,7 +96,7 @@ class TangentPlanes:
             normals.reshape(-1, 3)[on] = across
             whole = corner_sines(corners[some], normals[some])
             sines[some] = np.where(whole <= 0, np.minimum(whole, sines[some]), sines[some])
-        return sines.reshape(quads.shape)
+        return np.asarray(sines.min(axis=1).reshape(quads.shape[:-1]))
 
     def _on_creases(self, faces: IntArray, weights: FloatArray) -> tuple[IntArray, FloatArray]:
         """Return which places (k,) are on creases, and the mean normals (k, 3) all around them."""

@@ -11,15 +11,12 @@ from scipy.sparse.csgraph import connected_components
 
 from solvers.errors import CrossviewError
 from solvers.frozen import freeze_arrays
-from solvers.quads.corners import TangentPlanes, worth
+from solvers.quads.corners import TangentPlanes
 from solvers.quads.incidence import edge_table, paired_sides
 from solvers.quads.projection import Projection
 from solvers.quads.quantization import Quantization
 from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface
-
-ROUNDING = 1e-9
-"""Sine of a corner of 180 degrees, up to rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,26 +133,8 @@ class QuadMesh:
 
         0 or less where a corner has 180 degrees or more there, or a side no length.
         """
-        return np.asarray(self._sines.min(axis=1))
-
-    @cached_property
-    def _sines(self) -> FloatArray:
-        """(q, 4) the sines of the quads' corners."""
         planes = TangentPlanes(self.surface)
-        return planes.sines(self.faces, self.barycentric, self.vertices, self.quads)
-
-    @cached_property
-    def worth(self) -> tuple[int, float]:
-        """Number of inverted quads, negative, and the least quality, to compare meshes by.
-
-        In flat land one of the two corners at a vertex of valence 2 has 180 degrees or more: it
-        does not count.
-        """
-        reflex = self._sines < -ROUNDING
-        times = np.bincount(self.quads[reflex], minlength=self.n_vertices)
-        excused = (self.valence == 2) & ~self.on_boundary & (times <= 1)
-        judged = np.where((self._sines <= 0) & excused[self.quads], 1.0, self._sines)
-        return worth(judged.min(axis=1))
+        return planes.quality(self.faces, self.barycentric, self.vertices, self.quads)
 
     @cached_property
     def max_distance_to_surface(self) -> float:

@@ -8,12 +8,14 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import crossview as library
 from crossview.export.quads_report import quads_report, quads_summary
 from crossview.gui.panels.quad_facts import quad_facts
-from crossview.workflow.certification import certified
+from crossview.workflow.certification import certified, own_surface, worth
+from solvers.quads.projection import Projection
 from tests.command_line import Crossview
 
 
@@ -69,6 +71,34 @@ def test_an_inverted_quad_is_told() -> None:
     told = quads_summary(solution, layout, spoiled)
     assert "inverted face" in told
     assert told.endswith("try another number of quads")
+
+
+def test_meshes_are_compared_as_the_certificate_judges_them() -> None:
+    mesh = made()[2]
+    surface = own_surface(mesh.surface)
+    good = worth(mesh, surface)
+    assert (good.upright, good.met, good.fewest) == (True, True, 0)
+    assert mesh.quantization is not None
+    missed = replace(mesh, quantization=replace(mesh.quantization, n_wanted=2 * mesh.n_quads))
+    vertices = mesh.vertices.copy()
+    inner = int(mesh.quads[~mesh.on_boundary[mesh.quads].any(axis=1)][0, 0])
+    vertices[inner] += 3 * mesh.edge_lengths.max()
+    folded = worth(replace(mesh, vertices=vertices), surface)
+    assert not folded.upright
+    assert folded.fewest < 0
+    assert good > worth(missed, surface) > folded
+
+
+def test_a_straight_corner_at_a_valence_2_is_no_reason_for_another_mesh() -> None:
+    square = library.read("square").surface
+    places = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0.6, 0.4, 0]])
+    places += square.vertices.min(axis=0)
+    faces, weights = Projection(square).nearest(places)
+    fixed, loop = np.zeros(5, dtype=bool), np.array([0, 0, 0, 0, -1])
+    quads = np.array([[0, 1, 2, 4], [0, 4, 2, 3]])
+    mesh = library.QuadMesh(square, places, quads, np.zeros(2, int), faces, weights, fixed, loop)
+    assert mesh.scaled_jacobian.min() < 0
+    assert worth(mesh, own_surface(square)).upright
 
 
 def test_a_mesh_that_cuts_the_surface_off_is_told_wrong_in_summary_panel_and_report() -> None:
