@@ -18,12 +18,6 @@ REACH = 0.4
 Less than a half, so that two neighbours never pass each other.
 """
 
-SLIM = 50.0
-"""Longest side of a quad, in its shortest, beyond which it counts as poorer.
-
-Measured: without, sides shrink to 1e-9 of others where fields stretch; with 300, poorer quads stay.
-"""
-
 SAME_PLACE = 1e-9
 """Distance, in diagonals of the surface, that counts as none. Chosen, above rounding."""
 
@@ -72,6 +66,8 @@ class Sliding:
         Chains of edges of its surface.
     rail : (n,) int array
         The rail each vertex is on, or -1.
+    slim : float
+        Longest side of a quad, in its shortest, beyond which it counts as poorer.
 
     Attributes
     ----------
@@ -79,8 +75,10 @@ class Sliding:
         Distance that counts as none.
     """
 
-    def __init__(self, mesh: QuadMesh, rails: list[Rail], rail: IntArray) -> None:
-        self.mesh, self.rails, self.rail = mesh, rails, rail
+    def __init__(
+        self, mesh: QuadMesh, rails: list[Rail], rail: IntArray, slim: float = np.inf
+    ) -> None:
+        self.mesh, self.rails, self.rail, self._slim = mesh, rails, rail, slim
         self.near = SAME_PLACE * mesh.surface.diagonal
         self._projection = Projection(mesh.surface)
         self._planes = TangentPlanes(mesh.surface)
@@ -97,10 +95,12 @@ class Sliding:
     def quality(self, places: Places, quads: IntArray) -> FloatArray:
         """Return the scaled Jacobians of quads (..., 4), given by vertices; less of slim ones."""
         found = self._planes.quality(places.faces, places.weights, places.vertices, quads)
+        if np.isinf(self._slim):
+            return found
         corners = places.vertices[quads]
         length = np.linalg.norm(np.roll(corners, -1, axis=-2) - corners, axis=-1)
         longest = np.maximum(length.max(axis=-1), 1e-300)
-        return np.asarray(np.minimum(found, SLIM * length.min(axis=-1) / longest))
+        return np.asarray(np.minimum(found, self._slim * length.min(axis=-1) / longest))
 
     def normals(self, places: Places, quads: IntArray) -> FloatArray:
         """Return the surface's normals (..., 4, 3) at the corners of quads (..., 4)."""
