@@ -12,18 +12,17 @@ from crossview.io import RawSurface, read_surface
 from crossview.workflow.loading import load_surfaces, mended
 from crossview.workflow.problem import Problem, problems_on
 from solvers.errors import SurfaceError
-from solvers.repair import NoComponent, Repaired, merge_coincident
+from solvers.repair import NoComponent, Repaired, share_vertices
 from solvers.singularities import existence, index_budget
-from solvers.surface import array_problems, problems
+from solvers.surface import problems
 
 
 def describe(case: Case) -> dict[str, Any]:
     """What the surface of a case is, what is wrong with it, and what its indices must sum to.
 
     All components are described unless the case chooses one. "problems" are those of the file's
-    own triangles (joined, for formats that do not share vertices), "notes" is what was mended;
-    "components" is empty if the rest keeps the triangles from being a surface; "usable" is "yes",
-    "with repair" or "no".
+    own triangles (joined along seams), "notes" is what was mended; "components" is empty if the
+    rest keeps the triangles from being a surface; "usable" is "yes", "with repair" or "no".
 
     Raises
     ------
@@ -56,9 +55,7 @@ def _read(
 ) -> tuple[tuple[int, int], list[SurfaceError], tuple[Repaired, ...], str]:
     """Counts of vertices and triangles, their problems, the surfaces made of them, if usable."""
     raw = read_surface(path)
-    vertices, faces = raw.vertices, raw.faces
-    if raw.merge and not any(array_problems(vertices, faces)):
-        vertices, faces, _ = merge_coincident(vertices, faces)
+    vertices, faces, _ = share_vertices(raw.vertices, raw.faces, merge=raw.merge)
     found = list(problems(vertices, faces))
     usable = "yes"
     try:

@@ -10,7 +10,7 @@ from crossview.cases.gallery import find_case
 from crossview.io import read_surface
 from crossview.session.document import Document
 from solvers.progress import Progress
-from solvers.repair import merge_coincident
+from solvers.repair import share_vertices
 from solvers.surface import FloatArray, IntArray
 
 
@@ -73,7 +73,5 @@ def read_triangles(target: str) -> Generator[Progress, None, tuple[FloatArray, I
     """
     yield Progress(f"reading {Path(target).name}", 0.1)
     raw = read_surface(str(find_case(target).surface))
-    if not raw.merge:
-        return raw.vertices, raw.faces
-    vertices, faces, _ = merge_coincident(raw.vertices, raw.faces)
+    vertices, faces, _ = share_vertices(raw.vertices, raw.faces, merge=raw.merge)
     return vertices, faces

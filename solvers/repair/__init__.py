@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from solvers.repair.flat_triangles import merge_coincident
+from solvers.repair.seams import share_vertices
 from solvers.repair.soup import NoComponent, Repaired, repair, repair_each
 
-__all__ = ["NoComponent", "Repaired", "merge_coincident", "repair", "repair_each"]
+__all__ = ["NoComponent", "Repaired", "repair", "repair_each", "share_vertices"]

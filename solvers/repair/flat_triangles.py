@@ -45,7 +45,7 @@ def merge_coincident(points: FloatArray, triangles: IntArray) -> tuple[FloatArra
     Two triangles that share a side, each with vertices of its own:
 
     >>> import numpy as np
-    >>> from solvers.repair import merge_coincident
+    >>> from solvers.repair.flat_triangles import merge_coincident
     >>> points = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
     >>> points, triangles, note = merge_coincident(points, np.array([[0, 1, 2], [3, 4, 5]]))
     >>> triangles.tolist(), note
@@ -54,7 +54,7 @@ def merge_coincident(points: FloatArray, triangles: IntArray) -> tuple[FloatArra
     places, number = np.unique(points, axis=0, return_inverse=True)
     reach = COINCIDENT * float(np.linalg.norm(np.ptp(points, axis=0)))
     pairs = cKDTree(places).query_pairs(reach, output_type="ndarray")
-    group = _joined(len(places), pairs)[number.reshape(-1)]
+    group = first_of_joined(len(places), pairs)[number.reshape(-1)]
     lowest = _first_of_each(group)
     kept = lowest == np.arange(len(points))
     if kept.all():
@@ -100,7 +100,7 @@ def mend_flat_triangles(
         if short.any():
             which, side = np.nonzero(short)
             ends = np.stack([triangles[flat[which], side], triangles[flat[which], side - 2]], 1)
-            triangles = _joined(len(points), ends)[triangles]
+            triangles = first_of_joined(len(points), ends)[triangles]
             triangles = triangles[_three_corners(triangles)]
         else:
             triangles = _flip(len(points), triangles, 3 * flat + length.argmax(axis=1))
@@ -132,7 +132,7 @@ def _flip(n_points: int, triangles: IntArray, longest: IntArray) -> IntArray:
     return np.delete(result, np.setdiff1d(drop, twin // 3), axis=0)
 
 
-def _joined(n: int, pairs: IntArray) -> IntArray:
+def first_of_joined(n: int, pairs: IntArray) -> IntArray:
     """Return for each of n items the lowest item that the pairs join it to."""
     graph = coo_array((np.ones(len(pairs), dtype=np.int8), tuple(pairs.T)), (n, n))
     return _first_of_each(connected_components(graph, directed=False)[1])

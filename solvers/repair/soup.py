@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 import numpy.typing as npt
 
 from solvers.errors import SurfaceError, counted
-from solvers.repair.flat_triangles import mend_flat_triangles, merge_coincident
+from solvers.repair.flat_triangles import mend_flat_triangles
 from solvers.repair.orientation import orient
+from solvers.repair.seams import share_vertices
 from solvers.surface.triangulation import FloatArray, IntArray
 from solvers.surface.trisurface import TriSurface
 from solvers.surface.validation import (
@@ -21,6 +24,8 @@ from solvers.surface.validation import (
     fan_labels,
     problems,
 )
+
+Step = Callable[[FloatArray, IntArray], tuple[FloatArray, IntArray, str]]
 
 
 class NoComponent(SurfaceError):
@@ -81,8 +86,9 @@ def repair(
 ) -> Repaired:
     """Make a surface, changing the arrays where that is safe or asked for.
 
-    Vertices that belong to no triangle are dropped, and triangles are turned to agree with their
-    neighbours, always; a closed surface that had to be turned faces outwards.
+    Vertices that belong to no triangle are dropped, boundary edges that lie on each other are
+    joined, and triangles are turned to agree with their neighbours, always; a closed surface that
+    had to be turned faces outwards.
 
     Parameters
     ----------
@@ -107,7 +113,8 @@ def repair(
     ------
     SurfaceError
         What still keeps the arrays from being one oriented manifold surface. Its elements are
-        numbered as in the arrays given, unless `merge`, `aggressive` or `component` changed them.
+        numbered as in the arrays given, unless joined edges, `merge`, `aggressive` or `component`
+        changed them.
 
     Examples
     --------
@@ -178,7 +185,7 @@ def _mended(
     for problem in array_problems(points, triangles):
         raise problem
     notes = [f"dropped {counted(int(unused.sum()), 'unused vertex')}"] if unused.any() else []
-    steps = [merge_coincident] if merge else []
+    steps: list[Step] = [partial(share_vertices, merge=merge)]
     steps += [mend_flat_triangles, _drop_duplicates] if aggressive else []
     steps += [orient, _cut_apart] if aggressive else [orient]
     for step in steps:
