@@ -1,7 +1,7 @@
 # make run    the window on a gallery case; without a display, a picture of it
 # make test   lint, types, import contracts and all tests, on all cores
 # make docs   the documentation, into build/docs
-# make bench  the performance figures
+# make bench  the performance figures beside what they are to be; LARGE=--large measures the largest sizes too (minutes)
 # make table  the table of docs/anisotropic.md (minutes); CROSSVIEW_DATA names a folder of surfaces
 # make study  100 random configurations made valid, the anticube from random starts: the tables of
 #             docs/make_valid.md and docs/natural.md (minutes)
@@ -46,7 +46,7 @@ docs:
 bench:
 	@sh tools/system-packages.sh test "$(PYTHON)"
 	@$(MAKE) --no-print-directory $(VENV)/installed-bench
-	$(XVFB) $(VENV)/bin/python -m pytest benchmarks
+	$(XVFB) $(VENV)/bin/python -m pytest benchmarks $(LARGE)
 
 table:
 	@$(MAKE) --no-print-directory $(VENV)/installed
