@@ -161,7 +161,8 @@ def natural(
     most : int, optional
         How many singularities at most.
     scale : float, optional
-        Length below which details of the surface do not count, in its units.
+        Length below which details of the surface do not count, in its units; 0.03 roots of its
+        area if not given. With 0 all count.
     progress : callable, optional
         Called with each step.
 
@@ -369,7 +370,7 @@ def simplify(
     >>> torus = crossview.natural(crossview.Problem(crossview.primitives.torus(n=24)))
     >>> fewer = crossview.simplify(torus, 4)
     >>> len(torus.singularities), len(fewer.singularities)
-    (12, 4)
+    (10, 4)
     >>> crossview.solve(fewer).valid
     True
     """

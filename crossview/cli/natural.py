@@ -43,7 +43,8 @@ def natural(
     most
         How many singularities at most: opposite indices cancel and equal ones are merged.
     scale
-        Length below which details of the surface do not count, in its units.
+        Length below which details of the surface do not count, in its units; 0.03 roots of its
+        area if not given, 0: all count.
     """
     found = new.chosen.case(surface)
     given = Problem.from_case(found)

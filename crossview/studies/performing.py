@@ -133,6 +133,8 @@ def _natural(state: State, options: Natural) -> None:
             weight=options.weight,
             most_valence=options.most_valence,
             fewest=options.fewest,
+            most=options.most,
+            scale=options.scale,
         )
     )
 

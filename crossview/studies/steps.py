@@ -46,6 +46,17 @@ class Natural:
         default=False,
         metadata=key(Flag(), "Whether as few are left as the index budget allows."),
     )
+    most: int | None = field(
+        default=None, metadata=key(Number(whole=True, least=0), "How many at most.")
+    )
+    scale: float | None = field(
+        default=None,
+        metadata=key(
+            Number(least=0),
+            "Length below which details of the surface do not count; 0.03 roots of its area if "
+            "not given.",
+        ),
+    )
 
 
 @documented

@@ -13,7 +13,8 @@ boundary the angles of all sectors stay what they are: quads there have to fit t
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import diags_array
+from scipy.sparse import csr_array, diags_array
+from scipy.sparse.csgraph import dijkstra
 
 from solvers.algebra.factorization import factorized
 from solvers.algebra.operators import laplacian, lumped_mass
@@ -88,6 +89,63 @@ def angles_without_details(features: Features, scale: float) -> FloatArray:
     after, before = np.roll(phi, -1, axis=1) - phi, np.roll(phi, 1, axis=1) - phi
     turn = np.roll(cotangents, 1, axis=1) * after + np.roll(cotangents, -1, axis=1) * before
     return np.asarray(t.angles + 0.5 * turn)
+
+
+def settled(features: Features, index: IntArray, scale: float) -> IntArray:
+    """Return indices with those near a vertex moved there whose own curvature asks for them.
+
+    The corner of a cube is no detail, but its curvature is spread like any other.
+
+    Parameters
+    ----------
+    features : Features
+        Of the surface of n vertices and m triangles; no index moves on or across them.
+    index : (n + m,) int array
+        Of the vertices and the triangles.
+    scale : float
+        How far they move at most, along edges.
+
+    Returns
+    -------
+    (n + m,) int array
+        With the same sum; a curvature of pi/2 asks for 1.
+
+    Examples
+    --------
+    The corners of a tetrahedron have the curvature pi each and ask for 2, the middle of an edge
+    for nothing:
+
+    >>> import numpy as np
+    >>> from solvers.features import no_features
+    >>> from solvers.fields.details import settled
+    >>> from solvers.surface import TriSurface
+    >>> points = np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1], [0, 0, -1.0]])
+    >>> faces = [[0, 1, 4], [0, 4, 2], [0, 2, 3], [0, 3, 1], [1, 3, 4], [4, 3, 2]]
+    >>> surface = TriSurface(points, np.array(faces))
+    >>> index = np.array([2, 0, 0, 2, 2, 0, 0, 0, 0, 2, 0])
+    >>> settled(no_features(surface), index, 1.0).tolist()
+    [2, 2, 0, 2, 2, 0, 0, 0, 0, 0, 0]
+    >>> settled(no_features(surface), index, 1.5).tolist()
+    [2, 2, 2, 2, 0, 0, 0, 0, 0, 0, 0]
+    """
+    surface = features.surface
+    t, n = surface.triangulation, surface.n_vertices
+    barred = surface.boundary_vertices.copy()
+    barred[surface.edges[features.edges]] = True
+    asked = np.where(barred, 0, np.rint(t.curvatures / (np.pi / 2))).astype(np.int64)
+    ends = surface.edges[~barred[surface.edges].any(axis=1)]
+    length = np.linalg.norm(np.subtract(*surface.vertices[ends].transpose(1, 0, 2)), axis=1)
+    graph = csr_array((length, (ends[:, 0], ends[:, 1])), shape=(n, n))
+    index = index.copy()
+    sites = np.flatnonzero(index)
+    for site in sites[(sites >= n) | (asked[sites % n] != index[sites])].tolist():
+        start = [site] if site < n else surface.faces[site - n]
+        away = dijkstra(graph, directed=False, indices=start, limit=scale, min_only=True)
+        away[(index[:n] != 0) | (asked != index[site])] = np.inf
+        nearest = int(np.argmin(away))
+        if np.isfinite(away[nearest]):
+            index[nearest], index[site] = index[site], 0
+    return index
 
 
 def curvatures_of(triangulation: IntrinsicTriangulation, angles: FloatArray) -> FloatArray:

@@ -201,7 +201,7 @@ def dented_disk(shift: float = 0.0) -> TriSurface:
 
 def test_details_below_the_scale_hold_no_singularities() -> None:
     surface = dented_disk()
-    assert len(run(natural_singularities(surface))) > 12
+    assert len(run(natural_singularities(surface, scale=0.0))) > 12
     for scale in (0.4, 0.8):
         found = run(natural_singularities(surface, scale=scale))
         assert [s.valence for s in found] == [3] * 4
@@ -209,7 +209,30 @@ def test_details_below_the_scale_hold_no_singularities() -> None:
 
 def test_a_scale_below_the_triangles_changes_nothing() -> None:
     surface = dented_disk()
-    assert run(natural_singularities(surface, scale=1e-6)) == run(natural_singularities(surface))
+    found, other = (run(natural_singularities(surface, scale=scale)) for scale in (1e-6, 0.0))
+    assert found == other
+
+
+@pytest.mark.parametrize("method", NATURAL_METHODS)
+def test_of_a_rough_cube_its_corners_are_no_details_and_its_roughness_is(method: str) -> None:
+    surface = rough_cube(0.012)
+    corners = surface.vertices[(np.abs(surface.vertices) == 1).all(axis=1)]
+    found = run(natural_singularities(surface, method))
+    assert [s.valence for s in found] == [3] * 8
+    places = surface.positions([s.point for s in found])
+    assert np.linalg.norm(places[:, None] - corners, axis=2).min(axis=0).max() < 1e-12
+    assert len(run(natural_singularities(surface, method, scale=0.0))) > 8
+
+
+def rough_cube(noise: float) -> TriSurface:
+    """A cube with vertices on its sides, but for those near its edges, raised at random."""
+    smooth = cube(40)
+    x = smooth.vertices.copy()
+    side = np.argmax(np.abs(x), axis=1)
+    inner = np.sort(np.abs(x), axis=1)[:, 1] < 0.96
+    raised = np.random.default_rng(0).normal(scale=noise, size=len(x))
+    x[inner, side[inner]] += raised[inner]
+    return TriSurface(x, smooth.faces)
 
 
 def test_the_scale_is_a_length() -> None:
@@ -238,7 +261,7 @@ def test_corners_between_features_keep_their_quads_at_any_scale() -> None:
 @pytest.mark.parametrize("most", [40, 13, 10])
 def test_no_more_singularities_than_asked_for(most: int) -> None:
     surface = dented_disk()
-    found = run(natural_singularities(surface, most=most))
+    found = run(natural_singularities(surface, most=most, scale=0.0))
     assert len(found) <= most
     assert index_budget(surface, found, default_corners(surface)).satisfied
     assert all(3 <= s.valence <= 8 for s in found)
@@ -249,7 +272,7 @@ def test_fewer_than_the_budget_needs_are_refused() -> None:
         run(natural_singularities(SURFACES["sphere"](), most=7))
 
 
-@pytest.mark.parametrize("scale", [0.0, -1.0, np.nan, np.inf])
+@pytest.mark.parametrize("scale", [-1.0, np.nan, np.inf])
 def test_a_scale_that_is_no_length_is_refused(scale: float) -> None:
     with pytest.raises(CrossviewError, match="scale"):
         run(natural_singularities(SURFACES["disk"](), scale=scale))
