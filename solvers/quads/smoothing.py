@@ -31,6 +31,9 @@ ROUNDS = 30
 STAGES = 2
 """How often poor quads are improved one by one at most, and these rounds run again. Chosen."""
 
+UNFOLDINGS = 4
+"""How often quads that are still inverted are unfolded, as long as fewer are left. Chosen."""
+
 PULL = 0.3
 """How much of a rectangle's sides, in logarithms, is what they were at first: 0 none, 1 all.
 
@@ -125,10 +128,14 @@ def smooth(
     sliding = Sliding(replace(mesh, fixed=held), rails, rail)
     start = sliding.start()
     quality = sliding.quality(start, mesh.quads)
-    floor = np.minimum(quality, GOOD)
-    found = _kept_above(floor, sliding, start, rounds)
-    if sliding.quality(found, mesh.quads).min(initial=1.0) < ENOUGH:
-        found = _unfolded(sliding, start, found, rounds)
+    least = quality.min(initial=1.0)
+    found = _kept_above(_floor(quality, least), sliding, start, rounds)
+    for _ in range(UNFOLDINGS):
+        if sliding.quality(found, mesh.quads).min(initial=1.0) >= ENOUGH:
+            break
+        found, before = _unfolded(sliding, found, least, rounds), found
+        if found is before:
+            break
     found = _widened(sliding, found, rounds)
     return replace(mesh, vertices=found.vertices, faces=found.faces, barycentric=found.weights)
 
@@ -145,18 +152,23 @@ def _widened(sliding: Sliding, found: Places, rounds: int) -> Places:
     return tried if then[0] >= now[0] and then[1] >= min(now[1], ENOUGH) else found
 
 
-def _unfolded(sliding: Sliding, start: Places, found: Places, rounds: int) -> Places:
-    """Return places with fewer inverted quads than those found, none worse than at the start."""
+def _unfolded(sliding: Sliding, found: Places, least: float, rounds: int) -> Places:
+    """Return places with fewer inverted quads than those found, none worse than the least."""
     quads = sliding.mesh.quads
-    least = sliding.quality(start, quads).min()
     free = np.flatnonzero(~sliding.mesh.fixed)
     tried = unfold(sliding, found, free, _sides(sliding.mesh))
-    quality = sliding.quality(tried, quads)
-    # Some unfold only if they may fold further on the way.
-    floor = np.where(quality > 0, np.minimum(quality, GOOD), least)
+    floor = _floor(sliding.quality(tried, quads), least)
     tried = _kept_above(floor, sliding, tried, rounds)
     now, then = (worth(sliding.quality(places, quads)) for places in (found, tried))
     return tried if then > now and then[1] >= least else found
+
+
+def _floor(quality: FloatArray, least: float) -> FloatArray:
+    """Return what quads may not fall below: the least of all for those that are inverted.
+
+    Some unfold only if they may fold further on the way.
+    """
+    return np.where(quality > 0, np.minimum(quality, GOOD), least)
 
 
 def _kept_above(floor: FloatArray, sliding: Sliding, start: Places, rounds: int) -> Places:
