@@ -6,6 +6,7 @@ import contextlib
 import time
 from collections.abc import Generator, Iterable, Sequence
 from dataclasses import dataclass, replace
+from operator import itemgetter
 
 import numpy as np
 
@@ -38,29 +39,31 @@ from solvers.surface import TriSurface
 
 @dataclass(frozen=True)
 class _Trial:
-    """What is tried: a share of the wanted number, edges that bend little, arcs that may vanish."""
+    """What is tried: a share of the wanted number, edges that bend little, arcs that may vanish.
+
+    And how many inverted quads at most there may be before, for it to be worth the time.
+    """
 
     share: float = 1.0
     bend_little: bool = False
     may_vanish: bool = True
+    most: int = 7
 
 
 TRIALS = (
     _Trial(),
-    _Trial(bend_little=True),
+    _Trial(bend_little=True, most=99),
     *(_Trial(share) for share in (0.97, 1.03, 0.95, 1.05)),
     _Trial(may_vanish=False),
 )
 """What is tried one after the other until no quad is inverted.
 
 Chosen: such numbers still meet the wanted one, and where arcs vanish singularities come together.
+Measured: edges that bend little mended 19 inverted quads, other numbers never more than 7.
 """
 
 LITTLE = np.radians(45.0)
 """By how much, radians, edges that bend little turn. Chosen."""
-
-MANY = 8
-"""Inverted quads from which on no other numbers are tried. Measured: those never mended so many."""
 
 DEFAULT_QUADS = 5_000
 """Number of quads that are made if nothing else is said. Chosen."""
@@ -156,24 +159,23 @@ def quads(layout: QuadLayout, options: MeshOptions) -> Generator[Progress, None,
     each = [Condition(np.array([arc]), 1) for arc in range(layout.tmesh.n_arcs)]
     surface = own_surface(layout.surface)
     tried: list[tuple[Worth, QuadMesh]] = []
-    for trial in TRIALS:
-        begun = len(tried) / len(TRIALS)
+    for k, trial in enumerate(TRIALS):
+        best = max(tried, key=itemgetter(0), default=None)
+        if best is not None and not (options.smooth and 0 < -best[0].fewest <= trial.most):
+            continue
         conditions = bends if trial.may_vanish else bends + each
         turn = LITTLE if trial.bend_little else None
         made = yield from between(
             _filled(layout, options, max(1, round(trial.share * number)), conditions, turn),
-            begun,
-            begun + 1 / len(TRIALS),
+            k / len(TRIALS),
+            (k + 1) / len(TRIALS),
         )
         chosen = made.quantization
         made = replace(made, quantization=chosen and replace(chosen, n_wanted=number))
-        found = worth(made, surface)
-        tried.append((found, made))
-        if not options.smooth or found.upright or found.fewest <= -MANY:
-            break
-    best = max(tried, key=lambda one: one[0])[1]
-    best.check()
-    return best
+        tried.append((worth(made, surface), made))
+    mesh = max(tried, key=itemgetter(0))[1]
+    mesh.check()
+    return mesh
 
 
 def fewest(layout: QuadLayout) -> int | None:
