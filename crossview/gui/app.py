@@ -7,6 +7,7 @@ import sys
 
 from PySide6.QtWidgets import QApplication
 
+from crossview.gui.docks import show_focused
 from crossview.gui.icons import icon
 from crossview.gui.main_window import MainWindow
 from crossview.scene import ensure_rendering
@@ -20,6 +21,8 @@ def application() -> QApplication:
     app.setApplicationName("crossview")
     app.setDesktopFileName("crossview")
     app.setWindowIcon(icon("crossview"))
+    if app is not present:
+        app.focusChanged.connect(show_focused)
     return app
 
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from itertools import pairwise
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QTabWidget, QWidget
+from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QScrollArea, QTabWidget, QWidget
 
 LEFT, RIGHT = Qt.DockWidgetArea.LeftDockWidgetArea, Qt.DockWidgetArea.RightDockWidgetArea
 """Where panels are docked."""
@@ -14,11 +14,11 @@ LEFT, RIGHT = Qt.DockWidgetArea.LeftDockWidgetArea, Qt.DockWidgetArea.RightDockW
 BOTTOM = Qt.DockWidgetArea.BottomDockWidgetArea
 """Where those are that are hidden at first."""
 
-LEFT_WIDTH, RIGHT_WIDTH = 316, 232
+LEFT_WIDTH, RIGHT_WIDTH = 316, 248
 """Widths of both sides at first, in pixels. Chosen."""
 
-LEFT_LEAST, RIGHT_LEAST = 272, 208
-"""Least widths of panels on both sides, in pixels. Chosen, for all words to be read."""
+LEFT_LEAST, RIGHT_LEAST = 286, 246
+"""Least widths of panels on both sides, in pixels. Chosen: all words are read beside a bar."""
 
 LEFT_COLUMN = ("Surface", "Singularities", "Validity")
 """Panels on the left, from the top; the others are on the right."""
@@ -61,13 +61,24 @@ def size_docks(window: QMainWindow, docks: Mapping[str, QDockWidget]) -> None:
     )
     for column, shares in (
         (LEFT_COLUMN, (0.27, 0.39, 0.34)),
-        (("Layers", "Convergence"), (0.52, 0.48)),
+        (("Layers", "Convergence"), (0.56, 0.44)),
     ):
         window.resizeDocks(
             [docks[title] for title in column],
             [round(height * share) for share in shares],
             Qt.Orientation.Vertical,
         )
+
+
+def show_focused(_: QWidget | None, widget: QWidget | None) -> None:
+    """Bring to the front, and into view, what the focus has come to."""
+    around = widget
+    while widget is not None and around is not None:
+        if isinstance(around, QDockWidget) and around.visibleRegion().isEmpty():
+            around.raise_()
+        if isinstance(around, QScrollArea):
+            around.ensureWidgetVisible(widget, 0, 0)
+        around = around.parentWidget()
 
 
 def _title_bar(title: str) -> QLabel:

@@ -37,11 +37,11 @@ class EmptyState(QWidget):
         self.setBackgroundRole(self.palette().ColorRole.Base)
         drop = QLabel()
         put_icon(drop, "drop")
-        title = QLabel("Drop a surface here, or start from a gallery case")
+        title = _words("Drop a surface here, or start from a case")
         font = title.font()
         font.setPointSizeF(font.pointSizeF() * 1.5)
         title.setFont(font)
-        formats = QLabel("OBJ, PLY, STL, OFF, VTK, VTP, GLTF, GLB, MSH, or a project or case")
+        formats = _words("OBJ, PLY, STL, OFF, VTK, VTP, GLTF, GLB, MSH, projects, cases")
         formats.setForegroundRole(self.palette().ColorRole.PlaceholderText)
         browse = QPushButton("Open a file…")
         put_icon(browse, "open")
@@ -61,8 +61,9 @@ class EmptyState(QWidget):
         row.addStretch()
         layout = QVBoxLayout(self)
         layout.addStretch(3)
-        for widget, space in ((drop, 8), (title, 4), (formats, 16)):
-            layout.addWidget(widget, 0, Qt.AlignmentFlag.AlignHCenter)
+        drop.setAlignment(Qt.AlignmentFlag.AlignHCenter)
+        for label, space in ((drop, 8), (title, 4), (formats, 16)):
+            layout.addWidget(label)
             layout.addSpacing(space)
         choices.setAlignment(Qt.AlignmentFlag.AlignHCenter)
         layout.addLayout(choices)
@@ -88,3 +89,11 @@ class EmptyState(QWidget):
         button.setText(text)
         button.clicked.connect(lambda: self.chosen.emit(name))
         return button
+
+
+def _words(text: str) -> QLabel:
+    """Return a label in the middle that takes more lines where there is less room."""
+    label = QLabel(text)
+    label.setWordWrap(True)
+    label.setAlignment(Qt.AlignmentFlag.AlignHCenter)
+    return label

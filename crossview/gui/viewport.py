@@ -116,7 +116,7 @@ class Viewport(QWidget):
         state = self._session.state
         self.held.follow(state)
         view = scene_view(state, self.held.ranges)
-        if self.scene.show(replace(view, title=self._elided(view.title))):
+        if self.scene.show(replace(view, title=self._broken(view.title))):
             self._update()
         shown = shown_scalar(view)
         self.held.hold(state, shown, self.scene.limits)
@@ -143,11 +143,17 @@ class Viewport(QWidget):
         timer.timeout.connect(run)
         return timer
 
-    def _elided(self, title: str) -> str:
+    def _broken(self, title: str) -> str:
+        """Return a title on two lines where one is too short, and cut where two are."""
         font = QFont()
         font.setPixelSize(TITLE_PIXELS)
-        room = self.plotter.width() - BESIDE_TITLE
-        return QFontMetrics(font).elidedText(title, Qt.TextElideMode.ElideRight, room)
+        metrics, room = QFontMetrics(font), self.plotter.width() - BESIDE_TITLE
+        words, first = title.split(" "), 1
+        while first < len(words) and metrics.horizontalAdvance(" ".join(words[: first + 1])) < room:
+            first += 1
+        lines = " ".join(words[:first]), " ".join(words[first:])
+        right = Qt.TextElideMode.ElideRight
+        return "\n".join(metrics.elidedText(line, right, room) for line in lines if line)
 
     def look_from(self, camera: str) -> None:
         """Look from one of the scene's preset directions, filling the room there is.

@@ -127,6 +127,28 @@ def test_all_layers_are_seen_in_a_small_window_and_a_click_on_an_eye_shuts_it(ha
     assert not hand.state.layers["legend"].visible
 
 
+def test_all_fits_on_a_screen_of_1080_lines_at_twice_the_size(hand: Hand) -> None:
+    window = hand.window
+    window.resize(960, 500)  # what a title bar and a task bar leave
+    hand.open("annulus-near")
+    hand.trigger("method-isotropic")
+    QApplication.processEvents()
+    assert (window.width(), window.height()) == (960, 500)
+    actions = window.validity_panel
+    for widget in (window.statusBar(), actions.make_valid, actions.rows[0], window.solve_button):
+        assert widget.visibleRegion().boundingRect() == widget.rect()
+    layers = window.layers_panel.list
+    for i in range(layers.count()):
+        words = layers.fontMetrics().horizontalAdvance(layers.item(i).text())
+        row = layers.visualItemRect(layers.item(i))
+        assert layers.mapTo(window.layers_panel, row.topRight()).x() < window.layers_panel.width()
+        assert words < row.width() - layers.iconSize().width()
+    (tabs,) = (bar for bar in window.findChildren(QTabBar) if bar.count() == 3)
+    for i in range(tabs.count()):
+        assert tabs.fontMetrics().horizontalAdvance(tabs.tabText(i)) < tabs.tabRect(i).width() - 8
+    assert tabs.tabRect(2).right() < tabs.width()
+
+
 def test_the_surface_is_coloured_by_what_the_box_says(hand: Hand) -> None:
     hand.open("annulus-near")
     hand.wait(lambda: hand.state.solved)

@@ -51,9 +51,11 @@ def test_tab_reaches_every_widget_each_with_a_name_and_a_focus_that_is_seen(hand
         assert not [widget for widget in wanted if not name_of(widget)]
         hand.canvas.setFocus()
         QTest.keyClick(hand.canvas, Qt.Key.Key_Tab)
-        for _ in range(len(wanted) + 20):
+        widget: QWidget | None = None
+        while widget is not hand.canvas:
             widget = QApplication.focusWidget()
             assert widget is not None
+            assert not widget.visibleRegion().isEmpty()
             around = window.viewport if widget is hand.canvas else widget
             before = bytes_of(around.grab().toImage())
             QTest.keyClick(widget, Qt.Key.Key_Tab)

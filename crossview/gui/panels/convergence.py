@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QScrollArea, QToolButton, QWidget
 
 from crossview.gui.icons import verdict_icon
 from crossview.gui.panels.energy_plot import EnergyPlot
+from crossview.gui.panels.scrolling import scrolled
 from crossview.gui.panels.validity import DOT
 from crossview.session.state import SessionState
 from crossview.view.colors import BAD, GOOD, UNSURE, WAITING
@@ -27,7 +28,7 @@ NO_ITERATIONS = {
 """Said of methods that have none."""
 
 
-class ConvergencePanel(QWidget):
+class ConvergencePanel(QScrollArea):
     """Follows a solve as it runs and says how it ended."""
 
     def __init__(self, compare: QAction, parent: QWidget | None = None) -> None:
@@ -46,7 +47,7 @@ class ConvergencePanel(QWidget):
         said.setSpacing(8)
         said.addWidget(self._dot, 0, Qt.AlignmentFlag.AlignTop)
         said.addWidget(self.verdict, 1)
-        layout = QVBoxLayout(self)
+        layout = scrolled(self)
         layout.setContentsMargins(10, 4, 10, 8)
         layout.setSpacing(6)
         layout.addLayout(said)

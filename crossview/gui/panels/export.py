@@ -10,22 +10,23 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
     QPushButton,
+    QScrollArea,
     QSizePolicy,
     QSpinBox,
-    QVBoxLayout,
     QWidget,
 )
 
 from crossview.export.raster import LONGEST_SIDE, SHORTEST_SIDE
 from crossview.gui.figure import FigureSettings
 from crossview.gui.icons import put_icon
+from crossview.gui.panels.scrolling import scrolled
 from crossview.view.texts import grouped
 
 LEAST_PREVIEW = QSize(80, 48)
 """Size of the preview at least, in pixels. Chosen."""
 
 
-class ExportPanel(QWidget):
+class ExportPanel(QScrollArea):
     """Edits `FigureSettings` and shows what they give; its button exports."""
 
     changed = Signal()
@@ -75,7 +76,7 @@ class ExportPanel(QWidget):
         form.addRow("Scale", fine)
         form.addRow(self.transparent_box)
         form.addRow(self.result)
-        layout = QVBoxLayout(self)
+        layout = scrolled(self)
         layout.setContentsMargins(10, 8, 10, 8)
         layout.setSpacing(6)
         layout.addLayout(form)

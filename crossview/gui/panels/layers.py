@@ -3,10 +3,18 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QEvent, QObject, Qt
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QComboBox,
+    QHBoxLayout,
+    QLabel,
+    QScrollArea,
+    QStackedWidget,
+    QWidget,
+)
 
 from crossview.gui.panels.layer_list import LayerList
 from crossview.gui.panels.layer_settings import LayerEditor
+from crossview.gui.panels.scrolling import scrolled
 from crossview.scene import LAYERS
 from crossview.session.session import Session
 from crossview.session.state import SessionState
@@ -19,7 +27,7 @@ LISTED = tuple(kind for kind in LAYERS if kind.name not in SURFACE_SCALARS)
 """The other layers."""
 
 
-class LayersPanel(QWidget):
+class LayersPanel(QScrollArea):
     """The settings below are those of what was last chosen or shown above."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
@@ -48,7 +56,7 @@ class LayersPanel(QWidget):
         top.setSpacing(8)
         top.addWidget(QLabel("Colour by"))
         top.addWidget(self.scalar, 1)
-        layout = QVBoxLayout(self)
+        layout = scrolled(self)
         layout.setContentsMargins(0, 4, 0, 4)
         layout.setSpacing(4)
         layout.addLayout(top)

@@ -152,7 +152,8 @@ class SingularitiesPanel(QWidget):
 
     def _make_add_button(self) -> QToolButton:
         button = QToolButton()
-        button.setText("Add")
+        button.setText("Add…")
+        button.setStyleSheet("QToolButton::menu-indicator { image: none }")  # else below the line
         put_icon(button, "plus")
         button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         button.setAutoRaise(True)
