@@ -43,6 +43,22 @@ RING = (
 )
 """And so as a ring."""
 
+LOCK = (
+    _AWAY
+    + """
+  vec2 at = (normalize(normalVCVSOutput) - facing * eye).xy;
+  float soft = 0.7 * fwidth(at.x);
+  float body = max(abs(at.x) - 0.30, abs(at.y + 0.16) - 0.22);
+  float bow = max(abs(length(at - vec2(0.0, 0.06)) - 0.19) - 0.06, 0.06 - at.y);
+  float outside = dot(normalVCVSOutput, eye) > 0.0 ? min(body, bow) : 1.0;
+  if (outside > soft) discard;
+  float light = dot(diffuseColor, vec3(0.30, 0.59, 0.11));
+  vec3 ink = light > 0.55 ? vec3({rim}) : vec3(1.0);
+  fragOutput0 = vec4(mix(ink, diffuseColor, smoothstep(-soft, soft, outside)), opacity);
+"""
+)
+"""And so the lock on a disc of the same place and colour."""
+
 
 _NEARER_DEC = """//VTK::PositionVC::Dec
 in vec3 facing;

@@ -8,7 +8,7 @@ import numpy as np
 import pyvista as pv
 from scipy.spatial.distance import pdist
 
-from crossview.scene.balls import RIM, RING, Balls
+from crossview.scene.balls import LOCK, RIM, RING, Balls
 from crossview.scene.watch import Watch
 from crossview.view.colors import valence_color
 from crossview.view.geometry import Triangles
@@ -31,10 +31,11 @@ _PREVIEW_OPACITY = 0.6
 
 
 class SingularitiesLayer:
-    """The singularities in the colours of their valences, and a ring about the selected."""
+    """The singularities in the colours of their valences, a lock on or a ring about some."""
 
     def __init__(self, plotter: pv.BasePlotter, pixel_ratio: float) -> None:
         self._discs = Balls(plotter, "singularities")
+        self._locks = Balls(plotter, "locks", LOCK)
         self._rings = Balls(plotter, "selection", RING)
         self._preview = Balls(plotter, "preview")
         self._preview.property.SetOpacity(_PREVIEW_OPACITY)
@@ -52,13 +53,14 @@ class SingularitiesLayer:
         # A dragged singularity is in the way of its neighbours, not of their size.
         radius = marker_radius(view.singularities, diagonal, settings.size)
         self._draw(self._discs, markers, radius, side)
+        self._draw(self._locks, tuple(m for m in markers if m.locked), radius, side)
         selected = tuple(replace(m, valence=0) for m in markers if m.selected)
         self._draw(self._rings, selected, _RING_SIZE * radius, side)
         self._draw(self._preview, (view.preview,) if view.preview else (), radius, side)
 
     def remove(self) -> None:
         """Take them all off the plotter."""
-        for balls in (self._discs, self._rings, self._preview):
+        for balls in (self._discs, self._locks, self._rings, self._preview):
             balls.remove()
 
     @staticmethod

@@ -54,7 +54,8 @@ def scene_view(state: SessionState, held: Ranges = NO_RANGES) -> SceneView:
         return SceneView(background=background, layers=state.layers)
     field = state.field if state.field is not None and state.field.surface is surface else None
     condition = state.focus.condition
-    markers = markers_of(document.surface, state.singularities, state.focus.all)
+    locked = [i for i, s in enumerate(state.singularities) if s.locked]
+    markers = markers_of(document.surface, state.singularities, state.focus.all, locked)
     if field is None:
         view = SceneView(surface.vertices, surface.faces)
     else:
@@ -121,6 +122,8 @@ def figure_view(state: SessionState, transparent: bool, held: Ranges = NO_RANGES
         tool=SelectTool(),
     )
     view = replace(scene_view(plain, held), worst=None)
+    unlocked = tuple(replace(marker, locked=False) for marker in view.singularities)
+    view = replace(view, singularities=unlocked)
     return replace(view, background="transparent") if transparent else view
 
 

@@ -45,14 +45,17 @@ def field_view(field: CrossField, cut_graph: IntArray | None = None, **others: A
 
 
 def markers_of(
-    surface: TriSurface, singularities: Sequence[Singularity], selected: Collection[int] = ()
+    surface: TriSurface,
+    singularities: Sequence[Singularity],
+    selected: Collection[int] = (),
+    locked: Collection[int] = (),
 ) -> tuple[Marker, ...]:
-    """Return what to draw of singularities on a surface, those of some numbers as selected."""
+    """Return what to draw of singularities on a surface, some, by number, as selected or locked."""
     points = [s.point for s in singularities]
     positions = surface.positions(points).tolist()
     normals = surface.face_normals[np.array([point.face for point in points], int)].tolist()
     return tuple(
-        Marker(tuple(position), s.valence, i in selected, s.locked, tuple(normal))
+        Marker(tuple(position), s.valence, i in selected, i in locked, tuple(normal))
         for i, (s, position, normal) in enumerate(
             zip(singularities, positions, normals, strict=True)
         )

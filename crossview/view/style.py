@@ -54,6 +54,7 @@ TOWARDS = {
     "T marks": 2200.0,
     "! marks": 2200.0,
     "singularities": 2500.0,
+    "locks": 2520.0,
     "selection": 2500.0,
     "preview": 3000.0,
 }

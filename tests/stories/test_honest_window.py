@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtTest import QTest
@@ -16,7 +17,7 @@ from PySide6.QtWidgets import (
 )
 
 from crossview.session.commands import ChangeValence, Together
-from crossview.session.pictures import scene_view
+from crossview.session.pictures import figure_view, scene_view
 from crossview.view.colors import BAD, CONDITIONS, GOOD, rgb
 from crossview.view.scalars import SURFACE_SCALARS
 from tests.windowing import Hand
@@ -27,6 +28,13 @@ LEFT = Qt.MouseButton.LeftButton
 
 def valences(hand: Hand) -> list[int]:
     return [s.valence for s in hand.state.document.singularities]
+
+
+def patch(hand: Hand, index: int) -> np.ndarray:
+    """The inner half of the disc of a singularity, as it is drawn."""
+    place, reach = hand.place_of(index).toPoint(), 5
+    rows = slice(place.y() - reach, place.y() + reach + 1)
+    return hand.picture()[rows, place.x() - reach : place.x() + reach + 1].astype(int)
 
 
 def test_return_ends_the_editing_of_a_valence_and_undo_hears_its_key_again(hand: Hand) -> None:
@@ -249,8 +257,12 @@ def test_a_field_of_another_configuration_is_pale_and_has_no_verdict(hand: Hand)
 
 def test_a_locked_singularity_says_so_when_it_is_dragged(hand: Hand) -> None:
     hand.open("disk-4")
+    blank = patch(hand, 0)
+    assert np.abs(blank - blank[:, ::-1]).max() < 0.1 * 255  # one colour
     hand.window.session.edits.toggle_lock(0)
     hand.wait()
+    assert (patch(hand, 0).min(axis=-1) > 250).sum() > 0.2 * patch(hand, 0)[..., 0].size  # white
+    assert not any(m.locked for m in figure_view(hand.state, False).singularities)
     eye = hand.canvas.renderer.GetActiveCamera().GetPosition()
     start = hand.place_of(0)
     hand.drag(start, start + QPointF(60, 40))
