@@ -13,7 +13,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from crossview.view.values import FloatArray, Polylines, Quads
-from crossview.workflow.spots import worst_quads
+from crossview.workflow.spots import POOR, worst_quads
 from solvers.layouts import QuadLayout, Separatrices
 from solvers.quads import QuadMesh
 
@@ -48,8 +48,9 @@ def t_junctions_of(separatrices: Separatrices) -> FloatArray:
 
 @_once
 def worst_of(mesh: QuadMesh) -> FloatArray:
-    """Return (k, 3) the middles of the worst quads."""
-    return np.array([quad.spot.place for quad in worst_quads(mesh)]).reshape(-1, 3)
+    """Return (k, 3) the middles of the worst quads, of those that are poor."""
+    poor = [quad.spot.place for quad in worst_quads(mesh) if quad.quality < POOR]
+    return np.array(poor).reshape(-1, 3)
 
 
 @_once

@@ -17,6 +17,11 @@ WORST = 5
 GOOD = 0.9
 """Scaled Jacobian from which a quad is not among the worst. Chosen: angles of 64 degrees."""
 
+POOR = 0.5
+"""Scaled Jacobian below which a quad is marked in the scene. Chosen: angles of 30 degrees, which
+even a valence 12 has, and smoothing lets no quad fall below for the sake of others.
+"""
+
 
 @dataclass(frozen=True)
 class Spot:

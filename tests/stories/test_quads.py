@@ -141,7 +141,7 @@ def test_sizes_before_and_the_worst_quads_after(hand: Hand) -> None:
     panel.sizes.edges.linkActivated.emit("1")
     assert viewport.scene.camera.focus == pytest.approx(expected.at_largest.place)
 
-    # after: the edges that came of it, and the worst quads, marked, with a click to look there
+    # after: the edges that came of it, and the worst quads, with a click to look there
     panel.count_box.setValue(400)
     hand.trigger("mesh")
     hand.wait(lambda: hand.state.made.quads is not None)
@@ -152,7 +152,8 @@ def test_sizes_before_and_the_worst_quads_after(hand: Hand) -> None:
     panel.worst.linkActivated.emit("0")
     assert viewport.scene.camera.focus == pytest.approx(worst[0].spot.place)
     hand.window.session.looks.toggle_layer("singularities")  # beside which the worst quads are
-    assert hand.shows(MARK_WARNING, hand.place(worst[0].spot.place), reach=9, line=True)
+    assert worst[0].quality > 0.8  # as it is beside a valence 3: no mark
+    assert not hand.shows(MARK_WARNING, hand.place(worst[0].spot.place), reach=9, line=True)
     panel.measure.setCurrentIndex(LENGTHS)
     assert panel.histogram.counts.sum() == len(quads.edges)
 
@@ -354,6 +355,9 @@ def test_inverted_quads_are_saved_only_when_that_is_allowed(hand: Hand, tmp_path
     hand.wait(lambda: hand.state.made.quads is not None)
     assert panel.said.text().startswith("1 inverted face")
     assert mark(panel) == BAD
+    panel.worst.linkActivated.emit("0")  # the inverted one
+    poor = [quad for quad in hand.state.made.worst if quad.quality < 0.5]
+    assert hand.shows(MARK_WARNING, hand.place(poor[0].spot.place), reach=9, line=True)
     hand.window.files.save_quads(tmp_path / "quads.obj")
     assert "not written: 1 inverted face" in hand.said
     assert not (tmp_path / "quads.obj").exists()
