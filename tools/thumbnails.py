@@ -25,7 +25,7 @@ def thumbnail(state: State) -> Image.Image:
     """Draw what was made of a case in few strokes, cropped to the surface, on nothing."""
     if state.solution is None:
         raise ValueError("nothing is solved")
-    view = field_view(state.solution.field, layers=layers_named(LAYERS), background="transparent")
+    view = field_view(state.solution.field, layers=layers_named(LAYERS), transparent=True)
     if state.layout is not None:
         view = replace(view, separatrices=curves_of(state.layout.separatrices))
     view = view.with_layer("crosses", density=0.35, size=1.5).with_layer("singularities", size=1.6)

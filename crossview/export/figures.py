@@ -76,7 +76,7 @@ def render(
     scale : float
         Pixels of the picture per unit of `size`; the layout stays the same.
     transparent : bool
-        Leave the background out.
+        Leave the background out; all is drawn as on it.
     camera : str
         auto, iso, xy, xz, yz or from behind yx, zx, zy; or px,py,pz,fx,fy,fz,ux,uy,uz: position,
         focus, up, and perhaps half the height seen, for a parallel view.
@@ -140,7 +140,8 @@ def solution_view(
         solution.field,
         solution.cut_graph if chosen["cut"].visible else None,
         layers=chosen,
-        background="transparent" if transparent else background,
+        background=background,
+        transparent=transparent,
         **feature_lines(
             solution.features, solution.field, solution.problem.options.tolerance_degrees
         ),

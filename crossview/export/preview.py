@@ -5,7 +5,7 @@ from __future__ import annotations
 import pyvista as pv
 from PIL import Image
 
-from crossview.export.raster import pixel_ratio
+from crossview.export.raster import pixel_ratio, reduced
 from crossview.scene import Camera, Scene, SceneView, ensure_rendering
 
 _FINE = 2
@@ -33,11 +33,12 @@ class Preview:
         self._scene = Scene(self._plotter, _FINE * scale * pixel_ratio(size))
 
     def image(self, view: SceneView, camera: Camera) -> Image.Image:
-        """Return the picture of a view; what is transparent is white."""
+        """Return the picture of a view."""
         self._scene.show(view)
         self._scene.fit(camera)
         self._plotter.ren_win.Render()  # a screenshot alone would be the last frame again
-        return Image.fromarray(self._plotter.screenshot(return_img=True)).reduce(_FINE)
+        pixels = self._plotter.screenshot(return_img=True, transparent_background=view.transparent)
+        return reduced(pixels, _FINE)
 
     def close(self) -> None:
         """Free what it draws with."""

@@ -65,11 +65,16 @@ def picture(
         plotter.ren_win.SetMultiSamples(_MULTI_SAMPLES)
         scene.show(view)
         scene.fit(camera)
-        pixels = plotter.screenshot(
-            return_img=True, transparent_background=view.background == "transparent"
-        )
+        pixels = plotter.screenshot(return_img=True, transparent_background=view.transparent)
+    return reduced(pixels, fine)
+
+
+def reduced(pixels: npt.NDArray[np.uint8], fine: int) -> Image.Image:
+    """Return an image of which each pixel is the mean of `fine` squared.
+
+    Means of colours count by their opacity, else rims of a transparent figure turn white.
+    """
     image = Image.fromarray(pixels)
-    # Means of colours count by their opacity, else rims of a transparent figure turn white.
     if image.mode == "RGBA":
         return image.convert("RGBa").reduce(fine).convert("RGBA")
     return image.reduce(fine)

@@ -10,6 +10,9 @@ from crossview.cases.pictured import Pictured
 from crossview.export.figures import render_view
 from crossview.scene import Camera, SceneView
 
+INCH = 25.4
+"""Millimetres."""
+
 
 @dataclass(frozen=True)
 class FigureSettings:
@@ -35,7 +38,7 @@ class FigureSettings:
     @property
     def millimetres(self) -> tuple[float, float]:
         """Width and height on paper."""
-        width, height = (25.4 * side * self.scale / self.dpi for side in self.size)
+        width, height = (INCH * side * self.scale / self.dpi for side in self.size)
         return width, height
 
 

@@ -5,16 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from PySide6.QtCore import QObject, QSize, Qt, QTimer
-from PySide6.QtGui import QImage, QPainter, QPalette, QPixmap
+from PySide6.QtGui import QColor, QImage, QPainter, QPalette, QPixmap
 
 from crossview.export.preview import Preview
 from crossview.gui.figure import Figure
 from crossview.gui.panels import ExportPanel
+from crossview.view.colors import THEMES, Theme
 
 REST_MS = 250
 """How long nothing may change before it is drawn."""
-LEAST_WIDTH = 64
-"""Of what is drawn, in pixels of the screen. Chosen."""
+LEAST_WIDTH, SQUARE = 64, 8
+"""Of what is drawn, and of the squares behind what is transparent, in pixels. Chosen."""
 
 
 class FigurePreview(QObject):
@@ -67,8 +68,11 @@ class FigurePreview(QObject):
         preview = self._for(settings.size, width)
         image = preview.image(figure.view, figure.camera).convert("RGBA")
         drawn = QImage(image.tobytes(), *image.size, QImage.Format.Format_RGBA8888)
-        pixmap = QPixmap.fromImage(drawn.copy())
-        with QPainter(pixmap) as painter:  # where the figure ends
+        pixmap = QPixmap(drawn.size())
+        with QPainter(pixmap) as painter:
+            _paint_squares(painter, THEMES[figure.view.background])  # seen where it is transparent
+            painter.drawImage(0, 0, drawn)
+            # where the figure ends
             painter.setPen(label.palette().color(QPalette.ColorRole.Mid))
             painter.drawRect(pixmap.rect().adjusted(0, 0, -1, -1))
         pixmap.setDevicePixelRatio(ratio)
@@ -83,3 +87,13 @@ class FigurePreview(QObject):
             self.close()
             self._preview = before = Preview(size, width)
         return before
+
+
+def _paint_squares(painter: QPainter, theme: Theme) -> None:
+    """Fill the whole with squares of a theme's background and of one that differs a little."""
+    area, plain = painter.window(), QColor(theme.background)
+    painter.fillRect(area, plain)
+    other = plain.lighter(140) if plain.lightness() < 128 else plain.darker(112)
+    for row in range(0, area.height(), SQUARE):
+        for column in range(row % (2 * SQUARE), area.width(), 2 * SQUARE):
+            painter.fillRect(column, row, SQUARE, SQUARE, other)

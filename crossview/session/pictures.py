@@ -124,7 +124,7 @@ def figure_view(state: SessionState, transparent: bool, held: Ranges = NO_RANGES
     view = replace(scene_view(plain, held), worst=None)
     unlocked = tuple(replace(marker, locked=False) for marker in view.singularities)
     view = replace(view, singularities=unlocked)
-    return replace(view, background="transparent") if transparent else view
+    return replace(view, transparent=transparent)
 
 
 def _preview(state: SessionState, surface: TriSurface) -> Marker | None:

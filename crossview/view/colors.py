@@ -118,7 +118,6 @@ class Theme:
 
 THEMES = {
     "white": Theme("#ffffff", "#000000", "#22262c", "#8a8f98"),
-    "transparent": Theme("#ffffff", "#000000", "#22262c", "#8a8f98"),
     "dark": Theme("#1d2026", "#08090b", "#e6e8eb", "#8a8f98"),
 }
 """Backgrounds by name."""

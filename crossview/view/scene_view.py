@@ -24,7 +24,7 @@ from crossview.view.values import (
 )
 from solvers.errors import CrossviewError
 
-Background = Literal["white", "dark", "transparent"]
+Background = Literal["white", "dark"]
 Coloring = Literal["quality", "patch", "plain"]
 
 
@@ -240,8 +240,9 @@ class SceneView:
         What is before it is cut away.
     title : str
         One line at the top left.
-    background : {"white", "dark", "transparent"}
-        Transparent is drawn as on white, without the white.
+    background : {"white", "dark"}
+    transparent : bool
+        Whether a picture leaves the background out; all is drawn as on it.
     layers : mapping of str to LayerSettings
         As `default_layers`; a layer that is missing is drawn with its defaults.
     """
@@ -272,6 +273,7 @@ class SceneView:
     clip: Plane | None = None
     title: str = ""
     background: Background = "white"
+    transparent: bool = False
     layers: Mapping[str, LayerSettings] = field(default_factory=default_layers)
 
     @property

@@ -180,7 +180,8 @@ def test_a_transparent_figure_of_the_size_and_scale_asked(hand: Hand, tmp_path: 
     panel.height_box.setValue(200)
     panel.scale_box.setValue(2)
     panel.transparent_box.setChecked(True)
-    assert panel.result.text() == "600 × 400 pixels\n51 × 34 mm"
+    assert panel.result.text() == "600 × 400 pixels"
+    assert (panel.across_box.value(), panel.up_box.value()) == (50.8, 33.9)
     hand.window.files.export(tmp_path / "disk.png")
     picture = np.asarray(Image.open(tmp_path / "disk.png"))
     assert picture.shape == (400, 600, 4)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QLocale, QSize, Qt, Signal
+from PySide6.QtCore import QLocale, QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtGui import QAction, QResizeEvent
 from PySide6.QtWidgets import (
     QCheckBox,
+    QDoubleSpinBox,
     QFormLayout,
     QHBoxLayout,
     QLabel,
@@ -17,7 +18,7 @@ from PySide6.QtWidgets import (
 )
 
 from crossview.export.raster import LONGEST_SIDE, SHORTEST_SIDE
-from crossview.gui.figure import FigureSettings
+from crossview.gui.figure import INCH, FigureSettings
 from crossview.gui.icons import put_icon
 from crossview.gui.panels.scrolling import scrolled
 from crossview.view.texts import grouped
@@ -27,7 +28,10 @@ LEAST_PREVIEW = QSize(80, 48)
 
 
 class ExportPanel(QScrollArea):
-    """Edits `FigureSettings` and shows what they give; its button exports."""
+    """Edits `FigureSettings` and shows what they give; its button exports.
+
+    The size typed last, in pixels or on paper, is kept when the resolution is changed.
+    """
 
     changed = Signal()
     """The settings are others now, or the room for the preview is."""
@@ -42,7 +46,15 @@ class ExportPanel(QScrollArea):
         self.dpi_box = _box(36, 2400, default.dpi)
         self.dpi_box.setSuffix(" dpi")
         self.dpi_box.setToolTip("Pixels of the file per inch on paper")
+        self.across_box, self.up_box = QDoubleSpinBox(), QDoubleSpinBox()
+        for length in (self.across_box, self.up_box):
+            length.setLocale(QLocale.c())
+            length.setDecimals(1)
+            length.setToolTip("Size on paper, in millimetres")
+        self._on_paper = False  # whether it was typed last
         for box, name in (
+            (self.across_box, "Width on paper, millimetres"),
+            (self.up_box, "Height on paper, millimetres"),
             (self.width_box, "Width, pixels"),
             (self.height_box, "Height, pixels"),
             (self.scale_box, "Scale"),
@@ -66,13 +78,20 @@ class ExportPanel(QScrollArea):
         pair.addWidget(self.width_box, 1)
         pair.addWidget(QLabel("×"))
         pair.addWidget(self.height_box, 1)
+        paper = QHBoxLayout()
+        paper.setSpacing(4)
+        paper.addWidget(self.across_box, 1)
+        paper.addWidget(QLabel("×"))
+        paper.addWidget(self.up_box, 1)
+        paper.addWidget(QLabel("mm"))
         fine = QHBoxLayout()
         fine.setSpacing(4)
         fine.addWidget(self.scale_box, 2)
         fine.addWidget(self.dpi_box, 3)
         form = QFormLayout()
         form.setVerticalSpacing(6)
-        form.addRow("Size", pair)
+        form.addRow("Pixels", pair)
+        form.addRow("Paper", paper)
         form.addRow("Scale", fine)
         form.addRow(self.transparent_box)
         form.addRow(self.result)
@@ -82,10 +101,14 @@ class ExportPanel(QScrollArea):
         layout.addLayout(form)
         layout.addWidget(self.preview, 1)
         layout.addWidget(self.button)
-        for box in (self.width_box, self.height_box, self.scale_box, self.dpi_box):
-            box.valueChanged.connect(self._show_result)
+        for box in (self.width_box, self.height_box):
+            box.valueChanged.connect(lambda: self._follow(on_paper=False))
+        for length in (self.across_box, self.up_box):
+            length.valueChanged.connect(lambda: self._follow(on_paper=True))
+        for box in (self.scale_box, self.dpi_box):
+            box.valueChanged.connect(lambda: self._follow(self._on_paper))
         self.transparent_box.toggled.connect(self.changed)
-        self._show_result()
+        self._follow(on_paper=False)
 
     @property
     def settings(self) -> FigureSettings:
@@ -99,11 +122,20 @@ class ExportPanel(QScrollArea):
         super().resizeEvent(event)
         self.changed.emit()
 
-    def _show_result(self) -> None:
-        settings = self.settings
-        width, height = (side * settings.scale for side in settings.size)
-        across, up = (f"{side:.0f}" for side in settings.millimetres)
-        self.result.setText(f"{grouped(width)} × {grouped(height)} pixels\n{across} × {up} mm")
+    def _follow(self, on_paper: bool) -> None:
+        """Bring pixels in line with the size on paper, or that with the pixels."""
+        self._on_paper = on_paper
+        lengths, sides = (self.across_box, self.up_box), (self.width_box, self.height_box)
+        each = INCH / self.dpi_box.value()
+        for length, side in zip(lengths, sides, strict=True):
+            with QSignalBlocker(length), QSignalBlocker(side):
+                length.setRange(SHORTEST_SIDE * each, LONGEST_SIDE * each)
+                if on_paper:
+                    side.setValue(round(length.value() / each / self.scale_box.value()))
+                else:
+                    length.setValue(side.value() * self.scale_box.value() * each)
+        width, height = (side.value() * self.scale_box.value() for side in sides)
+        self.result.setText(f"{grouped(width)} × {grouped(height)} pixels")
         self.changed.emit()
 
 

@@ -57,7 +57,8 @@ def test_the_size_on_paper_is_said_and_written(hand: Hand, tmp_path: Path) -> No
     panel = hand.window.export_panel
     panel.scale_box.setValue(2)
     panel.dpi_box.setValue(600)
-    assert panel.result.text() == "3\u2009200 × 2\u2009400 pixels\n135 × 102 mm"
+    assert panel.result.text() == "3\u2009200 × 2\u2009400 pixels"
+    assert (panel.across_box.value(), panel.up_box.value()) == (135.5, 101.6)
     panel.width_box.setValue(400)
     panel.height_box.setValue(300)
     assert panel.settings == FigureSettings((400, 300), 2, False, 600)
@@ -69,3 +70,40 @@ def test_the_size_on_paper_is_said_and_written(hand: Hand, tmp_path: Path) -> No
         assert picture.info["dpi"] == pytest.approx((600, 600), rel=1e-3)
     # 800 pixels at 600 to the inch, 72 points each
     assert 'width="96pt" height="72pt"' in (tmp_path / "disk.svg").read_text()
+
+
+def test_the_size_on_paper_can_be_typed(hand: Hand) -> None:
+    panel = hand.window.export_panel
+    panel.across_box.setValue(84.0)
+    panel.up_box.setValue(63.0)
+    panel.dpi_box.setValue(600)  # the paper stays as large
+    assert panel.settings.size == (1984, 1488)
+    assert panel.settings.millimetres == pytest.approx((84.0, 63.0), abs=0.05)
+    panel.width_box.setValue(800)
+    panel.height_box.setValue(600)
+    panel.dpi_box.setValue(300)  # and now the pixels as many
+    assert panel.settings.size == (800, 600)
+    assert panel.across_box.value() == pytest.approx(67.7)
+
+
+def test_what_is_transparent_is_seen_and_lettered_as_on_the_ground_shown(
+    hand: Hand, tmp_path: Path
+) -> None:
+    hand.open("disk-4")
+    hand.window.session.looks.toggle_dark()
+    hand.window.docks["Export"].raise_()
+    panel = hand.window.export_panel
+    panel.transparent_box.setChecked(True)
+    hand.wait(lambda: shown(hand).shape[1] > 120)
+    middle = shown(hand).shape[0] // 2
+    beside = shown(hand)[middle - 10 : middle + 10, 2:12, :3].reshape(-1, 3)  # the disk
+    assert len(np.unique(beside, axis=0)) == 2
+    hand.window.files.export(tmp_path / "dark.png")
+    picture = np.asarray(Image.open(tmp_path / "dark.png"))
+    assert picture[2, 2, 3] == 0
+    light, dark = (
+        ((picture[:60, ..., 3] == 255) & (np.abs(picture[:60, ..., :3] - wanted) < 20).all(axis=-1))
+        for wanted in (255 * np.array(rgb(THEMES[name].text)) for name in ("dark", "white"))
+    )
+    assert light.sum() > 50  # the title can be read on a dark slide
+    assert dark.sum() == 0

@@ -44,7 +44,7 @@ def test_a_preview_and_a_loop_are_shown_and_no_figure_has_them(solved: SessionSt
     assert figure.loop is None
     assert figure.problem is None
     assert not any(m.selected for m in figure.singularities)
-    assert figure.background == "transparent"
+    assert figure.transparent
     assert figure.H is view.H is not None
     marking = replace(solved, tool=MarkTool(0, np.array([0, 1])))
     assert scene_view(marking).loop is not None
