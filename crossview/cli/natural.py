@@ -60,4 +60,6 @@ def natural(
         scale=scale,
     )
     problem = new.watch(computation)
-    new.write(found, problem, f"{len(problem.singularities)} singularities")
+    count = configurations.crowded(problem)
+    near = f", {count} of them as near to another as edges are long: mbo keeps them apart"
+    new.write(found, problem, f"{len(problem.singularities)} singularities{near if count else ''}")

@@ -180,8 +180,9 @@ class Files:
             self._source = str(path)
             remember(self._source)
             self._session.edits.keep()
-            self._status.showMessage(f"Saved {path}", SAID_MS)
+            self._say("Saved", path, new)
 
+        new = not path.parent.exists()
         self._session.attempt("save", verb)
 
     def ask_figure(self) -> None:
@@ -231,9 +232,14 @@ class Files:
 
         def verb() -> None:
             write(path)
-            self._status.showMessage(f"Wrote {path}", SAID_MS)
+            self._say("Wrote", path, new)
 
+        new = not path.parent.exists()
         self._session.attempt("export", verb)
+
+    def _say(self, done: str, path: Path, new: bool) -> None:
+        """Say what was written, and whether its folder was made for it."""
+        self._status.showMessage(f"{done} {path}{', in a new folder' if new else ''}", SAID_MS)
 
     def _ask(self, title: str, suffix: str, kinds: dict[str, str]) -> Path | None:
         suggested = Path(self._folder()) / f"{self.name or 'crossview'}{suffix}"

@@ -26,6 +26,21 @@ class ShowWhere(Remedy):
     elements: Elements
 
 
+@dataclass(frozen=True)
+class NaturalBy(Remedy):
+    """Place natural singularities by another method.
+
+    Parameters
+    ----------
+    words : str
+        As in `Remedy`.
+    method : str
+        As of `solvers.fields.natural_singularities`.
+    """
+
+    method: str
+
+
 @dataclass(frozen=True, eq=False)
 class Faulty:
     """Triangles that are no surface, and what is wrong with them.

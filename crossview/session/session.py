@@ -9,7 +9,7 @@ from functools import partial
 from crossview.session.document import Document
 from crossview.session.loop import Loop
 from crossview.session.mending import mend
-from crossview.session.message import Faulty, ShowWhere
+from crossview.session.message import Faulty, NaturalBy, ShowWhere
 from crossview.session.opening import Opening, open_target, read_triangles
 from crossview.session.store import Store
 from crossview.session.verbs.edits import Edits
@@ -96,6 +96,8 @@ class Session(Store):
                 self._locate(tried.target, elements)
             case MakeValid():
                 self.moves.make_valid()
+            case NaturalBy(method=method):
+                self.moves.place_natural(method)
             case _:
                 self._mend(remedy)
         if isinstance(tried, MeshOptions):

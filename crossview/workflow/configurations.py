@@ -6,6 +6,7 @@ from collections.abc import Generator
 from dataclasses import replace
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from crossview.workflow.problem import Problem
 from crossview.workflow.sizes import read_sizes
@@ -27,6 +28,9 @@ from solvers.validity import make_valid as moved_to_validity
 from solvers.validity import simplify as merged_to_fewer
 
 Placing = Generator[Progress, None, Problem]
+
+CROWDED = 2.0
+"""Mean edges between singularities, below which the triangles say where they are. Chosen."""
 
 
 def natural(
@@ -69,6 +73,25 @@ def natural(
     )
     require_budget(bare.surface, singularities, bare.chosen_corners)
     return replace(bare, singularities=singularities)
+
+
+def crowded(problem: Problem) -> int:
+    """Return how many singularities are as near to another as the surface's edges are long.
+
+    Their places are those of its triangles: zeros of a field that a finer surface would move, or
+    make one. The globally optimal field of a disk has all four there.
+
+    Parameters
+    ----------
+    problem : Problem
+    """
+    places = problem.surface.positions([s.point for s in problem.singularities])
+    if len(places) < 2:
+        return 0
+    corners = problem.surface.vertices[problem.surface.edges]
+    edge = float(np.linalg.norm(corners[:, 0] - corners[:, 1], axis=1).mean())
+    nearest = cKDTree(places).query(places, k=2)[0][:, 1]
+    return int((nearest < CROWDED * edge).sum())
 
 
 def complete(problem: Problem) -> Placing:

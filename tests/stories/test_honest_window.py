@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 
 from crossview.session.commands import ChangeValence, Together
 from crossview.session.pictures import figure_view, scene_view
+from crossview.session.waypoints import NATURAL_LABELS
 from crossview.view.colors import BAD, CONDITIONS, GOOD, rgb
 from crossview.view.scalars import SURFACE_SCALARS
 from tests.windowing import Hand
@@ -287,10 +288,22 @@ def test_long_work_can_be_stopped_from_its_first_moment(hand: Hand, name: str) -
     hand.open("sphere-cube")
     hand.window.session.moves.place_natural(name)
     assert hand.window.actions_table.by_name["stop"].isEnabled()
+    assert hand.state.progress.stage == f"preparing {NATURAL_LABELS[name]}"
     hand.window.session.solving.stop()
     assert "Stopped" in hand.said
     assert not hand.window.actions_table.by_name["stop"].isEnabled()
     hand.wait()
+
+
+def test_natural_singularities_that_the_triangles_place_say_so(hand: Hand) -> None:
+    hand.open("disk-4")
+    hand.trigger("natural-globally-optimal")
+    assert "4 singularities are as near to another as edges are long" in hand.said
+    (button,) = hand.window.centre.message_bar.action_buttons
+    assert button.text() == "Use MBO"
+    button.click()
+    hand.wait(lambda: hand.state.undo_name == "natural singularities (MBO)")
+    assert hand.state.message is None
 
 
 def test_remedies_go_while_the_mouse_carries_one(hand: Hand) -> None:

@@ -116,6 +116,16 @@ def test_save_asks_for_a_name_once_and_gives_it_a_suffix(hand: Hand, tmp_path: P
     assert not hand.window.isWindowModified()
 
 
+def test_a_folder_that_is_made_for_a_file_is_told(hand: Hand, tmp_path: Path) -> None:
+    hand.open("disk-4")
+    hand.window.files.save_to(tmp_path / "new" / "disk.json")
+    assert hand.window.statusBar().currentMessage().endswith("disk.json, in a new folder")
+    hand.window.files.export(tmp_path / "figures" / "disk.png")
+    assert hand.window.statusBar().currentMessage().endswith("disk.png, in a new folder")
+    hand.window.files.export(tmp_path / "figures" / "again.png")
+    assert hand.window.statusBar().currentMessage().endswith("again.png")
+
+
 def test_closing_asks_and_can_be_given_up_or_save_first(hand: Hand, tmp_path: Path) -> None:
     hand.open("disk-4")
     hand.window.files.save_to(tmp_path / "mine.json")

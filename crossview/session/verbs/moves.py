@@ -10,10 +10,12 @@ from typing import TypeVar
 import numpy as np
 
 from crossview.session.commands import Command, ReplaceSingularities
-from crossview.session.message import Message
+from crossview.session.message import Message, NaturalBy
 from crossview.session.verbs.group import VerbGroup
+from crossview.session.verbs.solving import STARTING
 from crossview.session.waypoints import (
     IMPROVE,
+    NATURAL_LABELS,
     Waypoint,
     improve_sizes,
     merge_to_fewer,
@@ -21,7 +23,9 @@ from crossview.session.waypoints import (
     place_natural,
     snap_separatrices,
 )
+from crossview.workflow.configurations import crowded
 from solvers.errors import counted
+from solvers.fields import NATURAL_METHODS
 from solvers.layouts import Snapped
 from solvers.progress import Progress, relayed
 from solvers.validity import Improved
@@ -117,12 +121,17 @@ class Moves(VerbGroup):
         state = self._state
         if state.document is not None:
             alignment = "curvature" if state.along_curvature else "smoothness"
+
+            def done(command: Command) -> None:
+                self._do(command)
+                self._say_crowded(method)
+
             # on their way there are none
             self._store.update(state.focused(state.focus.on(None)))
             place = partial(
                 place_natural, state.document, method, alignment, fewest=state.fewest_natural
             )
-            self._run(place, self._do, self._say_unchanged)
+            self._run(place, done, self._say_unchanged, f"preparing {NATURAL_LABELS[method]}")
 
     def toggle_along_curvature(self) -> None:
         """Draw the crosses of natural singularities towards the directions of curvature, or not."""
@@ -138,13 +147,28 @@ class Moves(VerbGroup):
         job: Callable[[], Generator[Progress, None, T]],
         done: Callable[[T], None],
         stopped: Callable[[], None],
+        first: str = STARTING,
     ) -> None:
         def failed(error: Exception) -> None:
             self._solving.restore()
             self._store.fail(error, "edit")
 
         self._store.update(self._state.unsaid("edit"))
-        self._solving.run(job, done, failed, stopped)
+        self._solving.run(job, done, failed, stopped, first)
+
+    def _say_crowded(self, method: str) -> None:
+        """Say which singularities are where they are by chance, and offer a method without."""
+        document, other = self._state.document, NATURAL_METHODS[0]
+        if document is None or not (count := crowded(document.problem)):
+            return
+        message = Message(
+            f"{count} singularities are as near to another as edges are long",
+            "edit",
+            "warning",
+            f"a finer surface would place them otherwise; {NATURAL_LABELS[other]} keeps them apart",
+            remedies=() if method == other else (NaturalBy(f"use {NATURAL_LABELS[other]}", other),),
+        )
+        self._store.update(self._state.said(message))
 
     def _say(self, text: str) -> None:
         self._store.update(self._state.said(Message(text, "edit", "info")))

@@ -23,6 +23,9 @@ T = TypeVar("T")
 MOST_KEPT = 1_000_000
 """Triangles of all solutions that are kept for undo. Chosen: with their factors about 2 GB."""
 
+STARTING = "starting"
+"""Stage of a job that has told of none yet."""
+
 STILL = 0.15
 """How long the mouse is still before separatrices left out in a drag are traced, seconds."""
 
@@ -60,14 +63,18 @@ class Solving:
         done: Callable[[T], None],
         fail: Callable[[Exception], None],
         stopped: Callable[[], None] | None = None,
+        first: str = STARTING,
     ) -> None:
-        """Run any job in place of what runs now; `stopped` is called if the user stops it."""
+        """Run any job in place of what runs now; `stopped` is called if the user stops it.
+
+        `first` is the stage until the job tells another.
+        """
         self._when_stopped = stopped or self._say_stopped
         self._leave_live()
         self._background.submit(job, done, fail)
         # it can be stopped from now on, long before it tells of itself
         state = self._store.state.work_ended().unsaid("stop")
-        self._store.update(state.progressed(Progress("starting", 0.0)))
+        self._store.update(state.progressed(Progress(first, 0.0)))
 
     def follow(self) -> None:
         """Drop what was asked before and bring the results in line with the present document.

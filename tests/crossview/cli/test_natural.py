@@ -18,6 +18,15 @@ def test_a_surface_gets_natural_singularities_and_solves(
     assert report["isotropically_valid"]
 
 
+def test_singularities_that_the_triangles_place_are_told(
+    crossview: Crossview, tmp_path: Path
+) -> None:
+    new = tmp_path / "natural.json"
+    ran = crossview("natural", "disk", "-o", new, "--method", "globally-optimal")
+    assert (ran.status, ran.err) == (0, "")
+    assert ran.out.startswith("4 singularities, 4 of them as near to another as edges are long")
+
+
 def test_a_torus_needs_none(crossview: Crossview, tmp_path: Path) -> None:
     new = tmp_path / "natural.json"
     ran = crossview("natural", "torus", "-o", new, "--fewest")
