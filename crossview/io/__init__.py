@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -36,6 +36,12 @@ READERS: dict[str, Callable[[Path], Polygons]] = {
 
 SUFFIXES = tuple(READERS)
 """The file name endings that can be read."""
+FAR = 1e30
+"""Size of coordinates that are read in a larger unit.
+
+From the range of single precision, 3e38, in which scenes are drawn and some formats written.
+"""
+
 UNSHARED = {".stl", ".gltf", ".glb"}
 """Formats that store a vertex again for each triangle, or along seams."""
 
@@ -111,7 +117,23 @@ def _read(path: Path) -> Polygons:
         )
     if not require_regular(path):
         raise CrossviewError("the file is empty", str(path))
-    return reader(path)
+    return _in_reach(reader(path))
+
+
+def _in_reach(polygons: Polygons) -> Polygons:
+    """Return polygons in a larger unit, a power of ten, where most corners are beyond `FAR`.
+
+    One that alone is far is told by its number later.
+    """
+    known = (polygons.corners >= 0) & (polygons.corners < len(polygons.points))
+    used = np.abs(polygons.points[np.unique(polygons.corners[known])]).max(axis=1, initial=0.0)
+    size = float(np.median(used)) if len(used) else 0.0
+    if not FAR <= size < np.inf:
+        return polygons
+    exponent = int(np.floor(np.log10(size)))
+    note = f"coordinates are in units of 1e{exponent}"
+    points = polygons.points / 10.0**exponent
+    return replace(polygons, points=points, notes=(*polygons.notes, note))
 
 
 @contextmanager

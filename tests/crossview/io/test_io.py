@@ -504,3 +504,23 @@ def test_real_surfaces(name: str) -> None:
     surface = repair(raw.vertices, raw.faces, merge=raw.merge).surface
     counts = Facts(surface.n_vertices, surface.n_faces, surface.genus, len(surface.boundary_loops))
     assert counts == REAL[name]
+
+
+@pytest.mark.parametrize("suffix", [".obj", ".off", ".vtk"])
+def test_a_surface_beyond_all_scales_is_read_in_a_larger_unit(
+    ball: TriSurface, tmp_path: Path, suffix: str
+) -> None:
+    large = 2e90 * ball.vertices
+    path = tmp_path / f"ball{suffix}"
+    meshio.write(path, meshio.Mesh(large, [("triangle", ball.faces)]))
+    raw = read_surface(path)
+    assert raw.notes == ("coordinates are in units of 1e90",)
+    corners = 2.0 * ball.vertices[ball.faces]
+    assert np.abs(raw.vertices[raw.faces] - corners).max() < 1e-12
+    # one vertex astray is a mistake of the file and stays one
+    astray = ball.vertices.copy()
+    astray[3] *= 1e90
+    meshio.write(path, meshio.Mesh(astray, [("triangle", ball.faces)]))
+    raw = read_surface(path)
+    assert raw.notes == ()
+    assert (np.abs(raw.vertices).max(axis=1) > 10.0).sum() == 1
