@@ -215,7 +215,7 @@ class MainWindow(QMainWindow):
 
     def simplify(self) -> None:
         """Merge singularities until as many are left as the Validity panel says."""
-        self.session.moves.simplify(self.validity_panel.most.value())
+        self.session.moves.simplify(self.validity_panel.places.most.value())
 
     def add_pair(self) -> None:
         """Add a pair where the mouse is, where the menu was asked for, or where there is room."""

@@ -8,6 +8,8 @@ import pytest
 
 from crossview.cases.model import Builtin, Case, PlacedSingularity
 from crossview.session.state import SessionState
+from crossview.view.colors import WAITING
+from crossview.workflow.coarseness import Coarseness
 from solvers.surface import FloatArray
 from tests.windowing import Hand
 
@@ -31,7 +33,7 @@ def test_snap_makes_separatrices_meet_in_one_step(hand: Hand, off: Path) -> None
     hand.window.session.observers.append(
         lambda old, new: on_the_way.append(new.singularities) if new.moving is not None else None
     )
-    hand.window.validity_panel.snap.click()
+    hand.window.validity_panel.places.snap.click()
     hand.wait(lambda: hand.state.solved and hand.state.document is not before)
     assert len(set(on_the_way)) > 1
     assert hand.said.startswith("4 connections between singularities, which moved by up to 0.0")
@@ -64,7 +66,7 @@ def test_simplify_leaves_as_many_as_the_panel_says(hand: Hand, off: Path, tmp_pa
     case = Case.load(off)
     Case(case.surface, (*case.singularities, *PAIR)).save(path)
     hand.open(path)
-    panel, before = hand.window.validity_panel, hand.state.document
+    panel, before = hand.window.validity_panel.places, hand.state.document
     assert (panel.most.value(), panel.most.maximum()) == (3, 5)
     panel.simplify.click()
     hand.wait(lambda: hand.state.message is not None)
@@ -102,9 +104,35 @@ def test_stopped_they_change_nothing(hand: Hand, off: Path, name: str) -> None:
 
 
 def test_what_is_locked_leaves_nothing_to_better(hand: Hand, off: Path) -> None:
-    panel = hand.window.validity_panel
+    panel = hand.window.validity_panel.places
     buttons = (panel.improve, panel.snap, panel.simplify, panel.most)
     for i in range(4):
         assert all(button.isEnabled() for button in buttons)
         hand.window.session.edits.toggle_lock(i)
     assert not any(button.isEnabled() for button in buttons)
+
+
+def test_the_panel_tells_how_coarse_the_layout_is_that_a_drag_is_to_better(
+    hand: Hand, off: Path
+) -> None:
+    row = hand.window.validity_panel.places.coarseness
+    before = hand.state.made.layout
+    assert before is not None
+    told = str(Coarseness.of(before))
+    assert (row.text.text(), row.value.text()) == (told, "")
+    place = hand.place_of(0)
+    hand.drag(place, hand.place((0.4, 0.15, 0.0)))
+    hand.wait()
+    assert (row.text.text(), row.value.text()) == (told, "before")
+    hand.release(hand.place((0.4, 0.15, 0.0)))
+    hand.wait(lambda: hand.state.solved and hand.state.made.layout is not None)
+    assert (row.text.text(), row.value.text()) == (str(Coarseness.of(hand.state.made.layout)), "")
+    assert row.text.text() != told
+
+
+def test_where_there_is_no_layout_the_panel_tells_so(hand: Hand) -> None:
+    hand.open("annulus-near")
+    hand.trigger("method-isotropic")
+    assert hand.state.made.trouble is not None
+    row = hand.window.validity_panel.places.coarseness
+    assert (row.text.text(), row.color) == ("No layout", WAITING)

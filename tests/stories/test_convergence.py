@@ -176,7 +176,7 @@ def test_improve_shows_its_way_and_is_one_step(hand: Hand, isotropic_case: Cases
     hand.window.session.observers.append(
         lambda old, new: on_the_way.append(new.singularities) if new.moving is not None else None
     )
-    panel.improve.click()
+    panel.places.improve.click()
     hand.wait(lambda: hand.state.solved and hand.state.document is not before)
     assert len(set(on_the_way)) > 3
     assert hand.state.undo_name == "improve sizes"
@@ -216,9 +216,9 @@ def test_improve_stopped_keeps_what_it_has_reached(hand: Hand, isotropic_case: C
 def test_improve_needs_something_that_may_move(hand: Hand, isotropic_case: Cases) -> None:
     hand.open(isotropic_case("annulus-near"))
     for i in range(8):
-        assert hand.window.validity_panel.improve.isEnabled()
+        assert hand.window.validity_panel.places.improve.isEnabled()
         hand.window.session.edits.toggle_lock(i)
-    assert not hand.window.validity_panel.improve.isEnabled()
+    assert not hand.window.validity_panel.places.improve.isEnabled()
 
 
 def test_make_valid_and_undo(hand: Hand, isotropic_case: Cases) -> None:
@@ -226,7 +226,7 @@ def test_make_valid_and_undo(hand: Hand, isotropic_case: Cases) -> None:
     panel = hand.window.validity_panel
     before = hand.state.document
     assert (panel.rows[0].color, hand.window.convergence_panel.color) == (BAD, UNSURE)
-    assert panel.make_valid.isEnabled()
+    assert panel.places.make_valid.isEnabled()
     on_the_way = []
     hand.window.session.observers.append(
         lambda old, new: (
@@ -235,12 +235,12 @@ def test_make_valid_and_undo(hand: Hand, isotropic_case: Cases) -> None:
             else None
         )
     )
-    panel.make_valid.click()
+    panel.places.make_valid.click()
     hand.wait(lambda: hand.state.solved and hand.state.document is not before)
     assert len({text for _, text in on_the_way}) > 1
     assert any(places != before.singularities for places, _ in on_the_way)
     assert panel.rows[0].color == GOOD
-    assert not panel.make_valid.isEnabled()
+    assert not panel.places.make_valid.isEnabled()
     assert np.abs(hand.state.solution.holonomy_defects).max() < np.radians(1e-3)
     assert hand.window.convergence_panel.verdict.text().startswith("The field is aligned")
     assert hand.state.undo_name == "make valid"
@@ -258,7 +258,7 @@ def test_what_cannot_be_made_valid_says_why_and_what_else(
         hand.window.session.edits.toggle_lock(i)
     hand.wait(lambda: hand.state.solved)
     before, field = hand.state.document, hand.state.field
-    hand.window.validity_panel.make_valid.click()
+    hand.window.validity_panel.places.make_valid.click()
     hand.wait(lambda: hand.state.message is not None)
     assert "too few singularities may move" in hand.said
     assert "around the inner boundary, 3" in hand.said

@@ -143,8 +143,13 @@ def test_all_fits_on_a_screen_of_1080_lines_at_twice_the_size(hand: Hand) -> Non
     hand.trigger("method-isotropic")
     QApplication.processEvents()
     assert (window.width(), window.height()) == (960, 500)
-    actions = window.validity_panel
-    for widget in (window.statusBar(), actions.make_valid, actions.rows[0], window.solve_button):
+    actions = window.validity_panel.places
+    for widget in (
+        window.statusBar(),
+        actions.make_valid,
+        window.validity_panel.rows[0],
+        window.solve_button,
+    ):
         assert widget.visibleRegion().boundingRect() == widget.rect()
     layers = window.layers_panel.list
     for i in range(layers.count()):

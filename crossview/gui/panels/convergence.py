@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QScrollArea, QToolButton, QWi
 from crossview.gui.icons import verdict_icon
 from crossview.gui.panels.energy_plot import EnergyPlot
 from crossview.gui.panels.scrolling import scrolled
-from crossview.gui.panels.validity import DOT
+from crossview.gui.panels.verdict_row import DOT
 from crossview.session.state import SessionState
 from crossview.view.colors import BAD, GOOD, UNSURE, WAITING
 from crossview.view.texts import aspect, energies

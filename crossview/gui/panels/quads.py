@@ -29,7 +29,7 @@ from crossview.gui.panels.links import LinkLabel, faint, link
 from crossview.gui.panels.quad_facts import ROWS, quad_facts
 from crossview.gui.panels.quad_sizes import QuadSizes
 from crossview.gui.panels.scrolling import scrolled
-from crossview.gui.panels.validity import DOT
+from crossview.gui.panels.verdict_row import DOT
 from crossview.session.state import SessionState
 from crossview.view.colors import BAD, GOOD
 from crossview.view.texts import MINUS

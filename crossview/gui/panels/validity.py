@@ -5,99 +5,26 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from PySide6.QtCore import QEvent, QSize, Qt, Signal
-from PySide6.QtGui import QAction, QEnterEvent, QMouseEvent
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QAction
 from PySide6.QtWidgets import (
     QFrame,
-    QGridLayout,
-    QHBoxLayout,
     QLabel,
     QPushButton,
     QScrollArea,
     QSizePolicy,
-    QSpinBox,
     QVBoxLayout,
     QWidget,
 )
 
-from crossview.gui.icons import verdict_icon
+from crossview.gui.panels.better_places import BetterPlaces
+from crossview.gui.panels.verdict_row import VerdictRow
 from crossview.session.mending import mendings
 from crossview.session.session import Session
 from crossview.session.state import SessionState
 from crossview.view.colors import BAD, GOOD, UNSURE, WAITING, condition_color
 from crossview.view.texts import degrees, signed
 from solvers.remedies import Remedy
-
-DOT = QSize(14, 14)
-"""Size of the sign that tells the verdict, in pixels. Chosen."""
-
-SAMPLE = QSize(18, 3)
-"""Of the line in the colour of a condition's loop, in pixels. Chosen."""
-
-
-class VerdictRow(QFrame):
-    """A sign, what it is about, and a value at the right.
-
-    Parameters
-    ----------
-    line : str
-        Colour of what belongs to the row in the scene, shown by a piece of line; empty: none.
-    """
-
-    hovered = Signal(bool)
-    clicked = Signal()
-
-    def __init__(self, line: str = "", parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self._dot, self.text, self.value = QLabel(), QLabel(), QLabel()
-        self.value.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        self.text.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
-        self.color = ""
-        layout = QHBoxLayout(self)
-        layout.setContentsMargins(8, 3, 8, 3)
-        layout.setSpacing(8)
-        layout.addWidget(self._dot)
-        layout.addWidget(self.text, 1)
-        if line:
-            sample = QFrame()
-            sample.setFixedSize(SAMPLE)
-            sample.setStyleSheet(f"background: {line}")
-            sample.setToolTip("Colour of its loop and guide lines in the scene")
-            layout.addWidget(sample)
-        layout.addWidget(self.value)
-
-    def show_verdict(self, color: str, text: str, value: str) -> None:
-        """Show a sign, a key of `SIGNS`, a text and a value."""
-        if color != self.color:
-            self.color = color
-            self._dot.setPixmap(verdict_icon(color).pixmap(DOT))
-        self.text.setText(text)
-        self.text.setToolTip(text)
-        self.value.setText(value)
-
-    def pin(self, pinned: bool) -> None:
-        """Show whether the guide keeps to this row."""
-        font = self.text.font()
-        font.setBold(pinned)
-        self.text.setFont(font)
-
-    def mousePressEvent(self, event: QMouseEvent) -> None:
-        """Tell of a click."""
-        self.clicked.emit()
-        super().mousePressEvent(event)
-
-    def enterEvent(self, event: QEnterEvent) -> None:
-        """Tell that the mouse is here."""
-        self.setBackgroundRole(self.palette().ColorRole.AlternateBase)
-        self.setAutoFillBackground(True)
-        self.hovered.emit(True)
-        super().enterEvent(event)
-
-    def leaveEvent(self, event: QEvent) -> None:
-        """Tell that the mouse has gone."""
-        self.setAutoFillBackground(False)
-        self.hovered.emit(False)
-        super().leaveEvent(event)
 
 
 class ValidityPanel(QWidget):
@@ -111,15 +38,7 @@ class ValidityPanel(QWidget):
     ) -> None:
         super().__init__(parent)
         self._session = session
-        self.make_valid, self.improve, self.snap, self.simplify = (
-            _button(actions[name]) for name in ("make-valid", "improve", "snap", "simplify")
-        )
-        self.most = QSpinBox()
-        self.most.setPrefix("to ")
-        self.most.setAccessibleName("Singularities to simplify to")
-        self.most.setToolTip("How many singularities Simplify leaves")
-        self.most.setEnabled(self.simplify.isEnabled())
-        actions["simplify"].enabledChanged.connect(self.most.setEnabled)
+        self.places = BetterPlaces(actions)
         self.budget, self.existence = VerdictRow(), VerdictRow()
         font = self.budget.text.font()
         font.setBold(True)
@@ -163,15 +82,7 @@ class ValidityPanel(QWidget):
         layout.addWidget(self.note)
         layout.addLayout(self._offers)
         layout.addWidget(scroll, 1)
-        buttons = QGridLayout()
-        buttons.setContentsMargins(30, 4, 8, 4)
-        buttons.setSpacing(6)
-        for column, button in enumerate((self.make_valid, self.improve, self.snap)):
-            buttons.addWidget(button, 0, column)
-            buttons.setColumnStretch(column, 1)
-        buttons.addWidget(self.simplify, 1, 0, 1, 2)
-        buttons.addWidget(self.most, 1, 2)
-        layout.addLayout(buttons)
+        layout.addWidget(self.places)
         layout.addStretch()
         self.show_state(None, session.state)
 
@@ -179,22 +90,14 @@ class ValidityPanel(QWidget):
         """Follow the window's state."""
         for number, row in enumerate(self.rows):
             row.pin(number == new.focus.pinned)
+        self.places.show_state(old, new)
         seen = ("document", "trial", "field", "base", "solution", "moving")
         if old is not None and all(getattr(old, name) is getattr(new, name) for name in seen):
             return
         self._show_budget(new)
-        if old is None or old.document is not new.document:
-            self._suggest(new)
         if old is None or _offers(old) != _offers(new):
             self._show_offers(_offered(new))
         self._show_conditions(new)
-
-    def _suggest(self, state: SessionState) -> None:
-        """Suggest half of the singularities that there are, where their number has changed."""
-        count = 0 if state.document is None else len(state.document.singularities)
-        if self.most.maximum() != max(count - 1, 0):
-            self.most.setRange(0, max(count - 1, 0))
-            self.most.setValue(count // 2)
 
     def _show_budget(self, state: SessionState) -> None:
         budget = state.budget
@@ -292,13 +195,3 @@ def _offered(state: SessionState) -> tuple[Remedy, ...]:
     if known is None or not state.document.budget.satisfied:
         return mendings(state.document)
     return known.remedies
-
-
-def _button(action: QAction) -> QPushButton:
-    """Return a push button that follows an action."""
-    button = QPushButton(action.text())
-    button.setToolTip(action.toolTip())
-    button.setEnabled(action.isEnabled())
-    button.clicked.connect(action.trigger)
-    action.enabledChanged.connect(button.setEnabled)
-    return button
