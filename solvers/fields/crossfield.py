@@ -26,16 +26,20 @@ class Convergence:
         E at the start and after each iteration.
     converged : bool
         Whether the iteration reached its goal; if not, the field is the best iterate.
+    smoothed_from : int, optional
+        Number of iterations after which the sizes are smoothed, each step of which leaves E = 0
+        for a moment; None: they are not.
 
     Examples
     --------
     >>> from solvers.fields import Convergence
     >>> Convergence()  # of a field that needs no iteration
-    Convergence(energies=(), converged=True)
+    Convergence(energies=(), converged=True, smoothed_from=None)
     """
 
     energies: tuple[float, ...] = ()
     converged: bool = True
+    smoothed_from: int | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -118,15 +118,17 @@ def anisotropic_field(
     newton = MinimumNormNewton(aligned.integrability)
     way = _solve(aligned, newton) if detour is None else by_detour(aligned, newton, detour)
     integrated = yield from _shown(aligned, "anisotropic", way)
+    smoothed_from = None
     if (
         smooth
         and integrated.converged
         and (sizes is not None or integrated.history[0] > NEARLY_INTEGRABLE)
     ):
+        smoothed_from = len(integrated.history) - 1
         smoothing = newton.slide(integrated.x, target)
         smoothed = yield from _shown(aligned, "anisotropic", smoothing, integrated.history)
         integrated = replace(smoothed, history=integrated.history + smoothed.history[1:])
-    convergence = Convergence(integrated.history, integrated.converged)
+    convergence = Convergence(integrated.history, integrated.converged, smoothed_from)
     return IntegratedField(aligned, integrated.x, "anisotropic", convergence)
 
 
@@ -233,7 +235,7 @@ def _shown(
         if not isinstance(step, NewtonStep):
             return None
         energies.append(step.energy)
-        convergence = Convergence(tuple(energies), converged=False)
+        convergence = Convergence(tuple(energies), False, len(before) - 1 if before else None)
         so_far = IntegratedField(aligned, step.x, method, convergence)
         return FieldStep(step.stage, step.fraction, convergence.energies, so_far)
 

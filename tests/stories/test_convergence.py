@@ -74,6 +74,11 @@ def test_anisotropic_where_isotropic_fails_and_back(hand: Hand, isotropic_case: 
     assert panel.facts.text().startswith("E 1.7 → ")
     assert "times longer than wide" in panel.facts.text()
     assert panel.plot.energies == anisotropic.convergence.energies
+    # where it is integrable the smoothing begins, which leaves E = 0 for a moment: this is shown
+    begun = panel.plot.convergence.smoothed_from
+    assert begun == anisotropic.convergence.smoothed_from
+    assert panel.plot.energies[begun] < 1e-10 < panel.plot.energies[begun + 1]
+    assert f"after {begun} the sizes are smoothed" in panel.plot.toolTip()
     row = hand.window.validity_panel.rows[0]
     assert (row.color, row.value.text()) == (UNSURE, "−37.0°")
 

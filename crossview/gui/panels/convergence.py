@@ -14,9 +14,13 @@ from crossview.session.state import SessionState
 from crossview.view.colors import BAD, GOOD, UNSURE, WAITING
 from crossview.view.texts import aspect, energies
 from crossview.workflow.pipeline import Solution
+from solvers.fields import Convergence
 
 COLORS = {"valid": GOOD, "stretched": UNSURE, "not found": UNSURE, "impossible": BAD}
 """Of verdicts."""
+
+NONE = Convergence()
+"""Of fields without iterations."""
 
 STOPPED = "Not converged: this is the last iterate before it was stopped."
 """Said of a field whose iteration was stopped."""
@@ -63,11 +67,11 @@ class ConvergencePanel(QScrollArea):
             return
         solution = new.solution
         if new.iterating is not None:
-            so_far = new.iterating.step.energies
-            self.plot.show_energies(so_far)
-            self._say(WAITING, "Solving…", energies(so_far))
+            so_far = new.iterating.step.so_far.convergence
+            self.plot.show_convergence(so_far)
+            self._say(WAITING, "Solving…", energies(so_far.energies))
         elif solution is None:
-            self.plot.show_energies(())
+            self.plot.show_convergence(NONE)
             self.plot.empty_text = "No iterations yet"
             self._say(WAITING, "Nothing is solved yet.", "")
         elif new.trial is not None and new.trial.drag:
@@ -82,7 +86,7 @@ class ConvergencePanel(QScrollArea):
         iterated = solution.problem.method not in NO_ITERATIONS
         so_far = field.convergence.energies if iterated else (field.energy,)
         self.plot.empty_text = NO_ITERATIONS.get(solution.problem.method, "No iterations")
-        self.plot.show_energies(so_far if iterated else ())
+        self.plot.show_convergence(field.convergence if iterated else NONE)
         said = str(verdict) if field.convergence.converged else f"{STOPPED} {verdict}"
         quads = verdict.status in ("valid", "stretched")
         facts = [aspect(field.max_log_aspect)] if quads else []

@@ -9,11 +9,13 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPainterPath, QPaintEvent, QPen
 from PySide6.QtWidgets import QWidget
 
+from solvers.fields import Convergence
+
 FLOOR = 1e-16
 """What an E of zero is drawn as."""
 
-LINE = QColor("#2f6fde")
-"""Colour of the curve."""
+LINE, SMOOTHING = QColor("#2f6fde"), QColor("#b7791f")
+"""Colours of the curve, and from where on the sizes are smoothed."""
 
 MARGIN, DOT = 8.0, 2.5
 """Around the curve, and radius of its dots, in pixels. Chosen."""
@@ -23,11 +25,14 @@ MOST_DOTS = 60
 
 
 class EnergyPlot(QWidget):
-    """Shows E at the start and after each iteration; decades as lines, the last value as text."""
+    """Shows E at the start and after each iteration; decades as lines, the last value as text.
+
+    A line stands where the smoothing of the sizes begins.
+    """
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.energies: tuple[float, ...] = ()
+        self.convergence = Convergence()
         self.empty_text = "No iterations yet"
         self.setMinimumHeight(80)
         self.setAccessibleName("E by iteration")
@@ -36,13 +41,22 @@ class EnergyPlot(QWidget):
         """A size that suits a dock."""
         return QSize(220, 140)
 
-    def show_energies(self, energies: Sequence[float]) -> None:
-        """Draw these values of E."""
-        if tuple(energies) != self.energies:
-            self.energies = tuple(energies)
-            last = f"{self.energies[-1]:.1e}" if energies else "none"
-            self.setToolTip(f"{max(len(self.energies) - 1, 0)} iterations, E = {last}")
-            self.update()
+    @property
+    def energies(self) -> tuple[float, ...]:
+        """The values of E that are drawn."""
+        return self.convergence.energies
+
+    def show_convergence(self, convergence: Convergence) -> None:
+        """Draw how an iteration went or goes."""
+        if convergence == self.convergence:
+            return
+        self.convergence = convergence
+        last = f"{self.energies[-1]:.1e}" if self.energies else "none"
+        told = f"{max(len(self.energies) - 1, 0)} iterations, E = {last}"
+        if convergence.smoothed_from is not None:
+            told += f"; after {convergence.smoothed_from} the sizes are smoothed, E = 0 kept to"
+        self.setToolTip(told)
+        self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint axes, decades and values."""
@@ -102,15 +116,32 @@ class EnergyPlot(QWidget):
             )
             for i, value in enumerate(logs)
         ]
-        path = QPainterPath(points[0])
-        for point in points[1:]:
-            path.lineTo(point)
-        painter.setPen(QPen(LINE, 1.5))
-        painter.drawPath(path)
-        painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(LINE)
-        for point in points if len(points) <= MOST_DOTS else points[-1:]:
-            painter.drawEllipse(point, DOT, DOT)
+        begun = self.convergence.smoothed_from
+        parts = [(LINE, points)]
+        if begun is not None:
+            parts = [(LINE, points[: begun + 1]), (SMOOTHING, points[begun:])]
+            self._paint_begin(painter, frame, points[begun].x())
+        for color, part in parts:
+            path = QPainterPath(part[0])
+            for point in part[1:]:
+                path.lineTo(point)
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.setPen(QPen(color, 1.5))
+            painter.drawPath(path)
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(color)
+            for point in part if len(points) <= MOST_DOTS else part[-1:]:
+                painter.drawEllipse(point, DOT, DOT)
+
+    def _paint_begin(self, painter: QPainter, frame: QRectF, x: float) -> None:
+        """Paint the line from which on the sizes are smoothed, and say so."""
+        painter.setPen(QPen(SMOOTHING, 1, Qt.PenStyle.DashLine))
+        painter.drawLine(QPointF(x, frame.top()), QPointF(x, frame.bottom()))
+        text, metrics = "smoothing", QFontMetricsF(self.font())
+        width = metrics.horizontalAdvance(text)
+        left = x + 4 if x + 4 + width < self.width() else x - 4 - width
+        painter.setPen(SMOOTHING)
+        painter.drawText(QPointF(left, frame.top() + metrics.ascent() / 2), text)
 
 
 def _decades(logs: Sequence[float]) -> tuple[int, int]:
