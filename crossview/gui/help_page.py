@@ -27,6 +27,12 @@ from crossview.session.script import script
 from crossview.session.session import Session
 from crossview.session.state import SessionState
 
+PAPER = (
+    "Jovana Jezdimirović, Alexandre Chemin, Jean-François Remacle: Integrable cross-field "
+    "generation based on imposed singularity configuration \u2013 the 2D manifold case"
+)
+"""Whose method it is."""
+
 LAST = 30
 """Lines of the log that a report of trouble tells. Chosen."""
 
@@ -56,6 +62,27 @@ def _table(menu: str, actions: list[QAction]) -> str:
         if (keys := ", ".join(key.toString() for key in action.shortcuts()))
     )
     return f"<h3>{menu}</h3><table cellpadding=2>{rows}</table>" if rows else ""
+
+
+class AboutBox(QMessageBox):
+    """What this is, whose method it computes, and which versions run; all of it to be copied."""
+
+    def __init__(self, parent: QWidget) -> None:
+        title = f"crossview {crossview.__version__}"
+        does = "Imposed singularities on a surface, and the boundary-aligned cross-field they give."
+        lines = [does, f"The method: {PAPER}", "BSD-3-Clause", *_versions()]
+        super().__init__(
+            QMessageBox.Icon.NoIcon,
+            "About crossview",
+            f"<b>{title}</b>" + "".join(f"<p>{html.escape(line)}</p>" for line in lines),
+            QMessageBox.StandardButton.Close,
+            parent,
+        )
+        self.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.copy = self.addButton("Copy", QMessageBox.ButtonRole.ActionRole)
+        self.copy.clicked.disconnect()  # which closes the box
+        told = "\n".join([title, *lines])
+        self.copy.clicked.connect(lambda: QGuiApplication.clipboard().setText(told))
 
 
 class Help:
@@ -91,14 +118,9 @@ class Help:
 
     def show_about(self) -> None:
         """Say what this is."""
-        versions = "<br>".join(_versions())
-        QMessageBox.about(
-            self._parent,
-            "About crossview",
-            f"<b>crossview {crossview.__version__}</b><p>Imposed singularities on a surface, "
-            "and the boundary-aligned cross-field they give.</p>"
-            f"<p>{versions}</p><p>BSD-3-Clause</p>",
-        )
+        box = AboutBox(self._parent)
+        box.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        box.open()
 
     def copy_script(self) -> None:
         """Put a Python script of what was done into the clipboard."""

@@ -9,6 +9,7 @@ from PySide6.QtGui import QAction, QIcon, QKeyEvent, QPixmap
 from PySide6.QtWidgets import (
     QFrame,
     QHeaderView,
+    QLabel,
     QLineEdit,
     QTreeWidget,
     QTreeWidgetItem,
@@ -22,6 +23,12 @@ WIDTH, ROWS = 480, 14
 ROW, ICON = QSize(0, 26), QSize(16, 16)
 """Sizes of a row and of an icon, in pixels. Chosen."""
 
+KEYS = {"-": "Minus", "+": "Plus"}
+"""Words for keys that look like nothing in a list."""
+
+PANELS = "View: Panels:"
+"""Titles of the actions that show and hide panels begin so."""
+
 
 class Palette(QFrame):
     """A search field over a list; Enter runs, Esc or a click elsewhere closes."""
@@ -34,7 +41,9 @@ class Palette(QFrame):
         self._blank = QIcon(blank)  # so that all titles stand in line
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setFrameShape(QFrame.Shape.StyledPanel)
-        self._actions = [(title, action) for title, action in actions if action.isEnabled()]
+        usable = [(title, action) for title, action in actions if action.isEnabled()]
+        # what a panel shows comes after what is done
+        self._actions = sorted(usable, key=lambda named: named[0].startswith(PANELS))
         self.search = QLineEdit()
         self.search.setPlaceholderText("Search actions")
         self.search.setClearButtonEnabled(True)
@@ -54,12 +63,19 @@ class Palette(QFrame):
         layout.setContentsMargins(8, 8, 8, 8)
         layout.addWidget(self.search)
         layout.addWidget(self.list)
+        self.tip = QLabel()
+        self.tip.setWordWrap(True)
+        self.tip.setMinimumHeight(2 * self.tip.fontMetrics().height())
+        self.tip.setAlignment(Qt.AlignmentFlag.AlignTop)
+        self.tip.setForegroundRole(self.palette().ColorRole.PlaceholderText)
+        layout.addWidget(self.tip)
+        self.list.currentItemChanged.connect(self._show_tip)
         self.search.textChanged.connect(self._filter)
         self.search.returnPressed.connect(self.run)
         self.search.installEventFilter(self)
         self.list.itemClicked.connect(lambda _: self.run())
         self._filter("")
-        self.resize(WIDTH, ROWS * ROW.height() + 50)
+        self.resize(WIDTH, ROWS * ROW.height() + 90)
 
     def popup(self) -> None:
         """Open in the upper middle of the parent."""
@@ -97,14 +113,21 @@ class Palette(QFrame):
         if item is not None:
             self.list.setCurrentItem(item)
 
+    def _show_tip(self, item: QTreeWidgetItem | None) -> None:
+        """Say what the chosen action does."""
+        action = None if item is None else item.data(0, Qt.ItemDataRole.UserRole)
+        self.tip.setText("" if action is None else action.toolTip().partition("\n")[2])
+
     def _filter(self, text: str) -> None:
         words = text.lower().split()
         self.list.clear()
         for title, action in self._actions:
             searched = f"{title} {action.toolTip()}".lower()
             if all(word in searched for word in words):
-                item = QTreeWidgetItem(self.list, [title, action.shortcut().toString()])
+                key = action.shortcut().toString()
+                item = QTreeWidgetItem(self.list, [title, KEYS.get(key, key)])
                 item.setIcon(0, action.icon() if not action.icon().isNull() else self._blank)
                 item.setSizeHint(0, ROW)
                 item.setData(0, Qt.ItemDataRole.UserRole, action)
+                item.setToolTip(0, action.toolTip())
         self._choose(0)

@@ -76,6 +76,7 @@ def test_anisotropic_where_isotropic_fails_and_back(hand: Hand, isotropic_case: 
     assert panel.plot.energies == anisotropic.convergence.energies
     # where it is integrable the smoothing begins, which leaves E = 0 for a moment: this is shown
     begun = panel.plot.convergence.smoothed_from
+    assert begun is not None
     assert begun == anisotropic.convergence.smoothed_from
     assert panel.plot.energies[begun] < 1e-10 < panel.plot.energies[begun + 1]
     assert f"after {begun} the sizes are smoothed" in panel.plot.toolTip()

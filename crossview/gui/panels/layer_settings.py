@@ -31,7 +31,10 @@ STEPS = 100
 COLORINGS = {"quality": "Scaled Jacobian", "patch": "Patches", "plain": "Plain"}
 """Names and labels of what quads are coloured by."""
 
-FACTOR = 4.0
+FAINTEST = 0.05
+"""Opacity at the left end of a slider: an open eye shows something. Chosen."""
+
+FACTOR = 2.5
 """Sliders of factors go from 1 / FACTOR to FACTOR, 1 in the middle. Chosen."""
 
 
@@ -49,7 +52,7 @@ class LayerEditor(QWidget):
         self._form.setContentsMargins(10, 4, 10, 4)
         self._form.setVerticalSpacing(6)
         make = {
-            "opacity": lambda: self._add_slider("Opacity", "opacity", _linear, _from_linear),
+            "opacity": lambda: self._add_slider("Opacity", "opacity", _opacity, _from_opacity),
             "size": lambda: self._add_slider("Size", "size", _factor, _from_factor),
             "density": lambda: self._add_slider("Density", "density", _factor, _from_factor),
             "color_map": self._add_color_map,
@@ -188,12 +191,12 @@ def _color_maps(own: str) -> tuple[str, ...]:
     return (own,)
 
 
-def _linear(step: int) -> float:
-    return step / STEPS
+def _opacity(step: int) -> float:
+    return FAINTEST + (1.0 - FAINTEST) * step / STEPS
 
 
-def _from_linear(value: float) -> int:
-    return round(value * STEPS)
+def _from_opacity(value: float) -> int:
+    return round((value - FAINTEST) / (1.0 - FAINTEST) * STEPS)
 
 
 def _factor(step: int) -> float:

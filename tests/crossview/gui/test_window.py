@@ -9,8 +9,10 @@ from PySide6.QtGui import QDragEnterEvent, QDropEvent, QGuiApplication, QKeySequ
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QMenu, QSlider, QSpinBox
 
+import crossview
 from crossview.cases.model import Case
 from crossview.gui.action_table import ACTIONS, TOOLBAR
+from crossview.gui.help_page import AboutBox
 from crossview.gui.palette import Palette
 from crossview.gui.recent import MOST, recent, remember
 from crossview.view.colors import LOOP, valence_color
@@ -116,6 +118,35 @@ def test_palette_finds_and_runs(hand: Hand) -> None:
     assert hand.state.layers["cut"].visible
 
 
+def test_palette_says_what_an_action_does_and_its_key_in_words(hand: Hand) -> None:
+    hand.open("disk-4")
+    hand.click(hand.place_of(0))
+    hand.window.show_palette()
+    palette = next(w for w in QApplication.topLevelWidgets() if isinstance(w, Palette))
+    items = (palette.list.topLevelItem(i) for i in range(palette.list.topLevelItemCount()))
+    rows = [item for item in items if item is not None]
+    lower = next(row for row in rows if row.text(0) == "Singularities: Lower valence")
+    assert lower.text(1) == "Minus"
+    palette.list.setCurrentItem(lower)
+    assert palette.tip.text().startswith("One quad fewer at each")
+    panels = [row.text(0).startswith("View: Panels") for row in rows]
+    assert sorted(panels) == panels  # behind all that does something
+    palette.close()
+
+
+def test_about_names_the_method_and_can_be_copied(hand: Hand) -> None:
+    hand.window.actions_table.by_name["about"].trigger()
+    box = hand.window.findChild(AboutBox)
+    assert "Integrable cross-field generation" in box.text()
+    box.copy.click()
+    assert box.isVisible()
+    told = QGuiApplication.clipboard().text()
+    assert told.startswith(f"crossview {crossview.__version__}\n")
+    assert "VTK" in told
+    assert "<" not in told
+    box.close()
+
+
 def test_palette_walks_with_the_arrows(hand: Hand) -> None:
     hand.window.show_palette()
     palette = next(w for w in QApplication.topLevelWidgets() if isinstance(w, Palette))
@@ -207,9 +238,14 @@ def test_eyes_and_sliders_of_the_layers(hand: Hand) -> None:
     hand.window.session.looks.toggle_layer("singularities")
     assert hand.shows(valence_color(3), place)
     before = hand.picture()
+    slider = panel.editors["crosses"].findChild(QSlider, "opacity")
+    slider.setValue(slider.minimum())
+    assert hand.state.layers["crosses"].opacity == 0.05  # an open eye shows something
+    slider.setValue(slider.maximum())
+    assert hand.state.layers["crosses"].opacity == 1.0
     slider = panel.editors["crosses"].findChild(QSlider, "density")
     slider.setValue(slider.maximum())
-    assert hand.state.layers["crosses"].density == pytest.approx(4.0)
+    assert hand.state.layers["crosses"].density == pytest.approx(2.5)
     assert not np.array_equal(hand.picture(), before)
 
 
