@@ -47,11 +47,15 @@ class Hand:
         end = time.monotonic() + PATIENCE
         while True:
             QApplication.processEvents()
-            if not self.window.session.busy and wanted():
+            if not self._busy and wanted():
                 break
             assert time.monotonic() < end, f"still waiting; message: {self.state.message}"
             time.sleep(0.002)
         QApplication.processEvents()
+
+    @property
+    def _busy(self) -> bool:
+        return self.window.session.busy or self.window.files.busy
 
     @property
     def said(self) -> str:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from crossview.cases.model import Case
 from crossview.cases.pictured import Pictured
-from crossview.export.figures import render_view
+from crossview.export.apart import packed
 from crossview.scene import Camera, SceneView
 
 INCH = 25.4
@@ -62,15 +62,9 @@ class Figure:
     settings: FigureSettings
     case: Case
 
-    def write(self, path: Path) -> None:
-        """Draw it to a file.
-
-        Raises
-        ------
-        CrossviewError
-            As `render_view`.
-        """
-        render_view(
+    def packed(self, path: Path) -> bytes:
+        """Return what the process that writes it to a file is sent."""
+        return packed(
             self.view,
             path,
             size=self.settings.size,

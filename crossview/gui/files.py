@@ -12,6 +12,7 @@ from crossview.cases.project import PROJECT, Project
 from crossview.export.meshes import write_mesh
 from crossview.gui.dialogs import Answer, ask_target, ask_to_save
 from crossview.gui.figure import Figure
+from crossview.gui.figure_writer import FigureWriter
 from crossview.gui.recent import remember
 from crossview.gui.recovery import Recovery, Unsaved
 from crossview.io import SUFFIXES
@@ -19,6 +20,7 @@ from crossview.session.look import Look
 from crossview.session.opening import Opening
 from crossview.session.session import Session
 from crossview.session.state import SessionState
+from solvers.errors import CrossviewError
 
 CASES = {PROJECT: "Project, with layers, camera and ranges", ".json": "Case"}
 """Words for the suffixes that a document is saved with."""
@@ -77,10 +79,16 @@ class Files:
         self._status = status
         self._source = ""
         self._recovery = Recovery()
+        self._writer = FigureWriter(parent)
         self._restored: Unsaved | None = None
         self._inverted_too = False
         self._copies = True
         session.may_leave = self.may_leave
+
+    @property
+    def busy(self) -> bool:
+        """Whether a figure is still being written."""
+        return self._writer.busy
 
     @property
     def path(self) -> Path | None:
@@ -135,8 +143,9 @@ class Files:
         return answer == Answer.Discard
 
     def close(self) -> None:
-        """Give up the copy of what is not saved."""
+        """Give up the copy of what is not saved; let the last figures be written."""
         self._recovery.clear()
+        self._writer.close()
 
     def ask_open(self) -> None:
         """Ask for a surface or a case and open it."""
@@ -192,10 +201,25 @@ class Files:
             self.export(path)
 
     def export(self, path: Path) -> None:
-        """Write what is shown, as it is seen, with the settings of the Export panel."""
+        """Write what is shown, as it is seen, with the settings of the Export panel.
+
+        The window goes on meanwhile; what is written is what is shown now.
+        """
         figure = self._figure()
-        if figure is not None:
-            self._write(figure.write, path)
+        if figure is None:
+            return
+        new = not path.parent.exists()
+
+        def ended(failure: CrossviewError | None) -> None:
+            self._status.clearMessage()
+            if failure is not None:
+                self._session.fail(failure, "export")
+            else:
+                self._session.update(self._session.state.unsaid("export"))
+                self._say("Wrote", path, new)
+
+        self._status.showMessage(f"Writing {path}")
+        self._writer.write(figure.packed(path), ended)
 
     def allow_inverted(self, allowed: bool) -> None:
         """Whether quads are written although some are inverted."""

@@ -48,6 +48,7 @@ def test_a_figure_dropped_on_the_window_opens_the_case_it_shows(
     hand.trigger("view-iso")
     shown, camera = places(hand), hand.window.viewport.scene.camera
     hand.window.files.export(tmp_path / f"figure.{kind}")
+    hand.wait()
     elsewhere = tmp_path / "elsewhere"
     elsewhere.mkdir()
     moved = (tmp_path / f"figure.{kind}").rename(elsewhere / f"figure.{kind}")

@@ -74,6 +74,7 @@ def test_open_add_drag_undo_redo_delete_export(hand: Hand, tmp_path: Path) -> No
 
     # the figure shows the same
     hand.window.files.export(tmp_path / "figure.png")
+    hand.wait()
     assert hand.state.message is None
     figure = np.asarray(Image.open(tmp_path / "figure.png").convert("RGB"))
     assert figure.shape == (1200, 1600, 3)
@@ -183,6 +184,7 @@ def test_a_transparent_figure_of_the_size_and_scale_asked(hand: Hand, tmp_path: 
     assert panel.result.text() == "600 × 400 pixels"
     assert (panel.across_box.value(), panel.up_box.value()) == (50.8, 33.9)
     hand.window.files.export(tmp_path / "disk.png")
+    hand.wait()
     picture = np.asarray(Image.open(tmp_path / "disk.png"))
     assert picture.shape == (400, 600, 4)
     assert picture[2, 2, 3] == 0
@@ -194,6 +196,7 @@ def test_a_figure_shows_the_view_and_layers_of_the_window(hand: Hand, tmp_path: 
     for name in ("singularities", "separatrices"):
         hand.window.session.looks.toggle_layer(name)
     hand.window.files.export(tmp_path / "without.png")
+    hand.wait()
     without = np.asarray(Image.open(tmp_path / "without.png").convert("RGB"))
     assert count_color(without, BLUE) == 0
 
@@ -201,6 +204,31 @@ def test_a_figure_shows_the_view_and_layers_of_the_window(hand: Hand, tmp_path: 
 def test_a_figure_that_cannot_be_written_is_told(hand: Hand, tmp_path: Path) -> None:
     hand.open("disk-4")
     hand.window.files.export(tmp_path / "figure.jpeg")
+    hand.wait()
     assert "figure.jpeg" in hand.said
     hand.window.files.export(tmp_path / "figure.png")
+    hand.wait()
     assert hand.state.message is None
+
+
+def test_the_window_goes_on_while_a_figure_is_written(hand: Hand, tmp_path: Path) -> None:
+    hand.open("disk-4")
+    hand.window.files.export(tmp_path / "before.png")
+    assert hand.window.files.busy
+    assert not (tmp_path / "before.png").exists()
+    assert hand.window.statusBar().currentMessage().startswith("Writing ")
+    hand.window.session.edits.step_valence(1, 0)  # the figure is of what was shown
+    hand.window.session.looks.toggle_layer("legend")
+    hand.wait()
+    assert hand.window.statusBar().currentMessage().startswith("Wrote ")
+    picture = np.asarray(Image.open(tmp_path / "before.png").convert("RGB"))
+    assert count_color(picture, BLUE) > 0
+    assert count_color(picture, valence_color(5)) == 0
+
+
+def test_a_window_that_closes_writes_its_last_figure(hand: Hand, tmp_path: Path) -> None:
+    hand.open("disk-4")
+    hand.window.files.export(tmp_path / "last.png")
+    hand.window.close()
+    with Image.open(tmp_path / "last.png") as figure:
+        assert figure.size == (1600, 1200)

@@ -121,8 +121,10 @@ def test_a_folder_that_is_made_for_a_file_is_told(hand: Hand, tmp_path: Path) ->
     hand.window.files.save_to(tmp_path / "new" / "disk.json")
     assert hand.window.statusBar().currentMessage().endswith("disk.json, in a new folder")
     hand.window.files.export(tmp_path / "figures" / "disk.png")
+    hand.wait()
     assert hand.window.statusBar().currentMessage().endswith("disk.png, in a new folder")
     hand.window.files.export(tmp_path / "figures" / "again.png")
+    hand.wait()
     assert hand.window.statusBar().currentMessage().endswith("again.png")
 
 

@@ -69,6 +69,7 @@ def test_what_could_not_be_written_is_forgotten_with_its_surface(
 ) -> None:
     hand.open("disk-4")
     hand.window.files.export(tmp_path / "figure.docx")
+    hand.wait()
     assert ".docx" in hand.said
     hand.open("square")
     assert hand.state.message is None

@@ -65,6 +65,7 @@ def test_the_size_on_paper_is_said_and_written(hand: Hand, tmp_path: Path) -> No
     hand.open("disk-4")
     for suffix in (".png", ".svg"):
         hand.window.files.export(tmp_path / f"disk{suffix}")
+        hand.wait()
     with Image.open(tmp_path / "disk.png") as picture:
         assert picture.size == (800, 600)
         assert picture.info["dpi"] == pytest.approx((600, 600), rel=1e-3)
@@ -99,6 +100,7 @@ def test_what_is_transparent_is_seen_and_lettered_as_on_the_ground_shown(
     beside = shown(hand)[middle - 10 : middle + 10, 2:12, :3].reshape(-1, 3)  # the disk
     assert len(np.unique(beside, axis=0)) == 2
     hand.window.files.export(tmp_path / "dark.png")
+    hand.wait()
     picture = np.asarray(Image.open(tmp_path / "dark.png"))
     assert picture[2, 2, 3] == 0
     light, dark = (
