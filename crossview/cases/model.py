@@ -21,10 +21,11 @@ from crossview.cases.parts import (
     check_method,
 )
 from crossview.cases.records import Record, checked, documented, key
-from crossview.cases.scalars import Text, Word
+from crossview.cases.scalars import Number, Text, Word
 from crossview.cases.surfaces import Builtin, SurfaceName
 from crossview.io.staged_files import staged_file
 from solvers.kind_checks import all_of_kind, one_of_kind
+from solvers.singularities import Connections, checked_connections
 
 __all__ = [
     "METHODS",
@@ -71,6 +72,16 @@ class Case:
             ListOf(Record(PlacedSingularity)), "The irregular points of the field.", always=True
         ),
     )
+    connections: Connections = field(
+        default=(),
+        kw_only=True,
+        metadata=key(
+            ListOf(ListOf(Number(whole=True, least=0), length=2, name="pairs [a, b]")),
+            "Two by two, singularities by their numbers from 0, which separatrices join: improve, "
+            "make-valid and snap keep them joined. Of two the separatrices that miss least are "
+            "meant, as many as the pair is given often.",
+        ),
+    )
     corners: tuple[PlacedCorner, ...] | None = field(
         default=None,
         metadata=key(
@@ -109,6 +120,8 @@ class Case:
             if (given := getattr(self, name)) is not None:
                 placed = all_of_kind(name, given, kind, error=CaseError)
                 object.__setattr__(self, name, placed)
+        found = checked_connections(self.connections, len(self.singularities), error=CaseError)
+        object.__setattr__(self, "connections", found)
 
     @property
     def files(self) -> tuple[str, ...]:

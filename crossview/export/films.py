@@ -183,6 +183,6 @@ def _solved(problem: Problem, placed: Sequence[tuple[Singularity, ...]]) -> Solv
     pipeline, found = Pipeline(), []
     for number, singularities in enumerate(placed):
         first, last = (0.5 + 0.5 * n / len(placed) for n in (number, number + 1))
-        solving = pipeline.solve(replace(problem, singularities=singularities))
+        solving = pipeline.solve(replace(problem, singularities=singularities, connections=()))
         found.append((yield from between(solving, first, last)))
     return found

@@ -118,6 +118,11 @@ def _improvable(state: SessionState) -> bool:
     return any(s.index and not s.locked for s in document.singularities)
 
 
+def _connected(state: SessionState) -> bool:
+    """Whether some singularities are to stay joined."""
+    return state.document is not None and len(state.document.connections) > 0
+
+
 def _naturals() -> tuple[ActionSpec, ...]:
     return tuple(
         ActionSpec(
@@ -349,8 +354,15 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ),
     ActionSpec(
         "snap", "Snap", "Singularities", lambda w: w.session.moves.snap(),
-        tip="Move unlocked singularities a little, until separatrices meet those they nearly met",
+        tip="Move unlocked singularities a little, until separatrices meet those they nearly met, "
+        "and keep them joined",
         enabled=_improvable,
+    ),
+    ActionSpec(
+        "let-connections-go", "Let connections go", "Singularities",
+        lambda w: w.session.moves.let_connections_go(),
+        tip="Keep the selected singularities, or all if none is selected, joined no longer",
+        enabled=_connected,
     ),
     ActionSpec(
         "simplify", "Simplify", "Singularities", lambda w: w.simplify(),

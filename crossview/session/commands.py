@@ -8,7 +8,7 @@ from typing import Protocol
 from crossview.session.document import Document
 from crossview.workflow.marking import Marking
 from solvers.errors import counted
-from solvers.singularities import Singularity
+from solvers.singularities import Connections, Singularity
 from solvers.surface import SurfacePoint
 
 METHOD_LABELS = {
@@ -52,7 +52,8 @@ class AddSingularities:
 
     def apply(self, document: Document) -> Document:
         """Return the document with them appended."""
-        return document.with_singularities((*document.singularities, *self.added))
+        placed = (*document.singularities, *self.added)
+        return document.with_singularities(placed, document.connections)
 
 
 @dataclass(frozen=True)
@@ -85,8 +86,9 @@ class ChangeValence:
         return f"make singularity {self.index + 1} a valence {self.valence}"
 
     def apply(self, document: Document) -> Document:
-        """Return the document with the valence changed."""
-        return _with_changed(document, self.index, valence=self.valence)
+        """Return the document with the valence changed, its connections given up."""
+        changed = _with_changed(document, self.index, valence=self.valence)
+        return GiveUpConnections(frozenset({self.index})).apply(changed)
 
 
 @dataclass(frozen=True)
@@ -135,8 +137,29 @@ class RemoveSingularities:
 
     def apply(self, document: Document) -> Document:
         """Return the document without them."""
-        kept = (s for i, s in enumerate(document.singularities) if i not in self.indices)
-        return document.with_singularities(tuple(kept))
+        kept = [i for i in range(len(document.singularities)) if i not in self.indices]
+        number = {before: after for after, before in enumerate(kept)}
+        connections = tuple(
+            (number[a], number[b]) for a, b in document.connections if a in number and b in number
+        )
+        return document.with_singularities([document.singularities[i] for i in kept], connections)
+
+
+@dataclass(frozen=True)
+class GiveUpConnections:
+    """Let separatrices that join singularities with these indices part again."""
+
+    indices: frozenset[int]
+
+    @property
+    def name(self) -> str:
+        """Name of the step."""
+        return "let connections go"
+
+    def apply(self, document: Document) -> Document:
+        """Return the document without their connections."""
+        left = tuple(pair for pair in document.connections if not self.indices & set(pair))
+        return document.with_singularities(document.singularities, left)
 
 
 @dataclass(frozen=True)
@@ -150,17 +173,20 @@ class ReplaceSingularities:
         Name of the step.
     automatic_corners : bool
         Whether the corners become those chosen from the boundary's angles.
+    connections : tuple of (int, int)
+        Which of them are to stay joined.
     """
 
     singularities: tuple[Singularity, ...]
     name: str
     automatic_corners: bool = False
+    connections: Connections = ()
 
     def apply(self, document: Document) -> Document:
         """Return the document with these singularities and no others."""
         if self.automatic_corners:
             document = document.with_automatic_corners()
-        return document.with_singularities(self.singularities)
+        return document.with_singularities(self.singularities, self.connections)
 
 
 @dataclass(frozen=True)
@@ -236,4 +262,4 @@ def next_valence(valence: int, step: int) -> int:
 def _with_changed(document: Document, index: int, **changes: object) -> Document:
     singularities = list(document.singularities)
     singularities[index] = replace(singularities[index], **changes)  # type: ignore[arg-type]
-    return document.with_singularities(singularities)
+    return document.with_singularities(singularities, document.connections)

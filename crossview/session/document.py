@@ -9,6 +9,7 @@ from functools import cached_property
 from crossview.cases.model import Case
 from crossview.workflow.problem import Problem
 from solvers.singularities import (
+    Connections,
     Existence,
     IndexBudget,
     Singularity,
@@ -88,9 +89,17 @@ class Document:
         turns = None if turning else self.problem.known_turns
         return existence(self.surface, singularities, self.corners, turns)
 
-    def with_singularities(self, singularities: Sequence[Singularity]) -> Document:
-        """Return the same document with other singularities."""
-        return replace(self, problem=replace(self.problem, singularities=tuple(singularities)))
+    @property
+    def connections(self) -> Connections:
+        """Which of the singularities are to stay joined."""
+        return self.problem.connections
+
+    def with_singularities(
+        self, singularities: Sequence[Singularity], connections: Connections = ()
+    ) -> Document:
+        """Return the same document with other singularities, some of them to stay joined."""
+        problem = replace(self.problem, singularities=tuple(singularities), connections=connections)
+        return replace(self, problem=problem)
 
     def with_corners(self, corners: Mapping[int, int]) -> Document:
         """Return the same document with other corners."""

@@ -23,7 +23,11 @@ from solvers.surface import SurfacePoint
 def add_pair(document: Document, point: SurfacePoint) -> Command:
     """Put a valence 3 and a valence 5 around a point of the document's surface."""
     pair = pair_at(document.surface, document.singularities, point)
-    return ReplaceSingularities((*document.singularities, *pair), "add a pair of 3 and 5")
+    return ReplaceSingularities(
+        (*document.singularities, *pair),
+        "add a pair of 3 and 5",
+        connections=document.connections,
+    )
 
 
 def add_pair_somewhere(document: Document) -> Generator[Progress, None, Command]:
@@ -67,13 +71,15 @@ def move_inside(document: Document, which: int) -> Command:
 def mirror(document: Document, axis: int) -> Command:
     """Mirror the configuration across x (0), y or z."""
     made = mirrored(document.surface, document.singularities, axis)
-    return ReplaceSingularities(made, f"mirror across {'xyz'[axis]}")
+    name = f"mirror across {'xyz'[axis]}"
+    return ReplaceSingularities(made, name, connections=document.connections)
 
 
 def rotate(document: Document, axis: int) -> Command:
     """Turn the configuration by 90 degrees about x (0), y or z."""
     made = rotated(document.surface, document.singularities, axis, np.pi / 2)
-    return ReplaceSingularities(made, f"rotate about {'xyz'[axis]}")
+    name = f"rotate about {'xyz'[axis]}"
+    return ReplaceSingularities(made, name, connections=document.connections)
 
 
 def distribute(document: Document) -> Generator[Progress, None, Command]:

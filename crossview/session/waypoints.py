@@ -26,9 +26,6 @@ T = TypeVar("T")
 TOLD_EVERY = 0.05
 """Least time between two reports of a computation with many short steps, seconds."""
 
-IMPROVE = "improve sizes"
-"""What a history calls the step to more even sizes."""
-
 NATURAL_LABELS = {
     "mbo": "MBO",
     "ginzburg-landau": "Ginzburg-Landau",
@@ -73,7 +70,9 @@ def move_to_validity(
         configurations.make_valid(document.problem), partial(_waypoint, base)
     )
     aimed = f", aimed at {moved.aim}" if moved.aim else ""
-    return ReplaceSingularities(moved.singularities, f"make valid{aimed}")
+    return ReplaceSingularities(
+        moved.singularities, f"make valid{aimed}", connections=document.connections
+    )
 
 
 def improve_sizes(
@@ -93,7 +92,12 @@ def improve_sizes(
         As `solvers.validity.improve`.
     """
     _, end = yield from relayed(configurations.improve(document.problem), partial(_waypoint, base))
-    return ReplaceSingularities(end.singularities, IMPROVE), end
+    return improved_to(document, end.singularities), end
+
+
+def improved_to(document: Document, singularities: tuple[Singularity, ...]) -> Command:
+    """Return the step to more even sizes, at its end or where it was stopped."""
+    return ReplaceSingularities(singularities, "improve sizes", connections=document.connections)
 
 
 def snap_separatrices(
@@ -112,8 +116,11 @@ def snap_separatrices(
     SingularityError
         As `solvers.layouts.snap`.
     """
-    _, end = yield from relayed(configurations.snap(document.problem), partial(_waypoint, base))
-    return ReplaceSingularities(end.singularities, "snap separatrices"), end
+    made, end = yield from relayed(configurations.snap(document.problem), partial(_waypoint, base))
+    command = ReplaceSingularities(
+        end.singularities, "snap separatrices", connections=made.connections
+    )
+    return command, end
 
 
 def merge_to_fewer(

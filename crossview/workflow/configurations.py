@@ -19,7 +19,7 @@ from solvers.fields import (
     IsotropicSolver,
     natural_singularities,
 )
-from solvers.layouts import Snapped
+from solvers.layouts import Snapped, holding, join
 from solvers.layouts import snap as moved_to_meet
 from solvers.singularities import require_budget
 from solvers.validity import Improved, Moved, missing_singularities
@@ -58,7 +58,7 @@ def natural(
     CrossviewError
         As `solvers.fields.natural_singularities`.
     """
-    bare = replace(problem, singularities=(), corners=None)
+    bare = replace(problem, singularities=(), corners=None, connections=())
     singularities = yield from natural_singularities(
         bare.surface,
         method,
@@ -109,7 +109,7 @@ def complete(problem: Problem) -> Placing:
 
 
 def make_valid(problem: Problem) -> Generator[Progress, None, tuple[Problem, Moved]]:
-    """Move the unlocked singularities until every holonomy defect vanishes.
+    """Move the unlocked singularities until every holonomy defect vanishes, those joined so again.
 
     Returns
     -------
@@ -120,7 +120,7 @@ def make_valid(problem: Problem) -> Generator[Progress, None, tuple[Problem, Mov
     Raises
     ------
     SingularityError
-        As `solvers.validity.make_valid`.
+        As `solvers.validity.make_valid`, or as `solvers.layouts.join`.
     """
     end = yield from moved_to_validity(
         problem.surface,
@@ -129,13 +129,16 @@ def make_valid(problem: Problem) -> Generator[Progress, None, tuple[Problem, Mov
         problem.options.refine,
         features=problem.features,
     )
+    if problem.connections:
+        valid = replace(problem, singularities=end.singularities)
+        end = replace((yield from _joined(valid)), aim=end.aim)
     return replace(problem, singularities=end.singularities), end
 
 
 def improve(problem: Problem) -> Generator[Progress, None, tuple[Problem, Improved]]:
     """Move the unlocked singularities until sizes are most even, or nearest to the size map.
 
-    Of two sizes at a vertex the geometric mean counts.
+    Those joined stay so. Of two sizes at a vertex the geometric mean counts.
 
     Returns
     -------
@@ -150,6 +153,11 @@ def improve(problem: Problem) -> Generator[Progress, None, tuple[Problem, Improv
     """
     sizes = problem.options.sizes
     wanted = None if sizes is None else read_sizes(sizes, problem.surface.n_vertices)
+    hold = None
+    if problem.connections:
+        joined = yield from _joined(problem)
+        problem = replace(problem, singularities=joined.singularities)
+        hold = holding(problem.connections, problem.options.refine)
     end = yield from moved_to_even_sizes(
         problem.surface,
         problem.singularities,
@@ -157,6 +165,7 @@ def improve(problem: Problem) -> Generator[Progress, None, tuple[Problem, Improv
         problem.options.refine,
         wanted=wanted if wanted is None or wanted.ndim == 1 else np.sqrt(wanted.prod(axis=1)),
         features=problem.features,
+        hold=hold,
     )
     return replace(problem, singularities=end.singularities), end
 
@@ -167,6 +176,7 @@ def snap(problem: Problem) -> Generator[Progress, None, tuple[Problem, Snapped]]
     Returns
     -------
     Problem
+        With those that are joined now as its connections.
     Snapped
         The last step of the way: which singularities are joined.
 
@@ -181,8 +191,10 @@ def snap(problem: Problem) -> Generator[Progress, None, tuple[Problem, Snapped]]
         problem.corners,
         problem.options.refine,
         features=problem.features,
+        kept=problem.connections,
     )
-    return replace(problem, singularities=end.singularities), end
+    pairs = tuple((a, b) for a, b in end.connections.tolist())
+    return replace(problem, singularities=end.singularities, connections=pairs), end
 
 
 def simplify(
@@ -216,4 +228,16 @@ def simplify(
         features=problem.features,
         most_valence=most_valence,
     )
-    return replace(problem, singularities=end.singularities), end
+    return replace(problem, singularities=end.singularities, connections=()), end
+
+
+def _joined(problem: Problem) -> Generator[Progress, None, Snapped]:
+    """Move the unlocked singularities until those of the connections are joined."""
+    return join(
+        problem.surface,
+        problem.singularities,
+        problem.connections,
+        problem.corners,
+        problem.options.refine,
+        features=problem.features,
+    )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -26,7 +27,9 @@ from solvers.features import Features
 from solvers.kind_checks import one_of_kind
 from solvers.repair import Repaired
 from solvers.singularities import (
+    Connections,
     Singularity,
+    checked_connections,
     checked_corners,
     checked_singularities,
     default_corners,
@@ -59,6 +62,9 @@ class Problem:
         Which edges of `surface` are features.
     source : str or Builtin, optional
         What `surface` was read from or made by; None: in Python.
+    connections : tuple of (int, int), optional
+        Numbers of singularities, from 0, that separatrices join: making valid, improving and
+        snapping keep them so.
     places : mapping of SurfacePoint to tuple of 3 float, optional
         Positions in space that points of `surface` were found by: a case tells the same ones again,
         to the last digit.
@@ -87,6 +93,7 @@ class Problem:
     notes: tuple[str, ...] = ()
     marking: Marking = field(default_factory=Marking)
     source: str | Builtin | None = None
+    connections: Connections = ()
     places: Mapping[SurfacePoint, Position] = field(default_factory=dict, repr=False)
 
     def __post_init__(self) -> None:
@@ -96,6 +103,8 @@ class Problem:
         one_of_kind("the options of a problem", self.options, Options)
         one_of_kind("the marking of a problem", self.marking, Marking)
         object.__setattr__(self, "singularities", checked_singularities(self.singularities))
+        joined = checked_connections(self.connections, len(self.singularities))
+        object.__setattr__(self, "connections", joined)
         if self.corners is not None:
             object.__setattr__(self, "corners", checked_corners(self.surface, self.corners))
 
@@ -198,6 +207,7 @@ class Problem:
             self.method,
             self.options,
             title=title,
+            connections=self.connections,
             features=features,
         )
 
@@ -228,6 +238,7 @@ def problems_on(case: Case, pieces: Sequence[Repaired]) -> tuple[Problem, ...]:
     surfaces = [piece.surface for piece in pieces]
     singularities: list[list[Singularity]] = [[] for _ in surfaces]
     found: list[dict[SurfacePoint, Position]] = [{} for _ in surfaces]
+    placed_on: list[tuple[int, int]] = []  # surface, and number there
     for number, given in enumerate(case.singularities, start=1):
         name = f"singularity #{number}"
         places = [surface.closest_point(given.position) for surface in surfaces]
@@ -236,8 +247,10 @@ def problems_on(case: Case, pieces: Sequence[Repaired]) -> tuple[Problem, ...]:
             for surface, place in zip(surfaces, places, strict=True)
         ]
         nearest = _within_reach(gaps, name, given.position)
+        placed_on.append((nearest, len(singularities[nearest])))
         singularities[nearest].append(Singularity(places[nearest], given.valence, given.locked))
         found[nearest][places[nearest]] = given.position
+    connections = _connections(case, placed_on)
     corners = _corners(case, surfaces)
     markings = _markings(case, surfaces)
     return tuple(
@@ -250,12 +263,26 @@ def problems_on(case: Case, pieces: Sequence[Repaired]) -> tuple[Problem, ...]:
             piece.notes,
             marking,
             case.surface,
+            tuple(connections[number]),
             positions,
         )
-        for piece, placed, cornered, marking, positions in zip(
-            pieces, singularities, corners, markings, found, strict=True
+        for number, (piece, placed, cornered, marking, positions) in enumerate(
+            zip(pieces, singularities, corners, markings, found, strict=True)
         )
     )
+
+
+def _connections(
+    case: Case, placed_on: Sequence[tuple[int, int]]
+) -> Mapping[int, list[tuple[int, int]]]:
+    """The connections of a case on each surface, whose singularities have numbers of their own."""
+    found: dict[int, list[tuple[int, int]]] = defaultdict(list)
+    for pair in case.connections:
+        (one, first), (other, second) = (placed_on[number] for number in pair)
+        if one != other:
+            raise CaseError("connected singularities are on different components", str(list(pair)))
+        found[one].append((first, second))
+    return found
 
 
 def _corners(case: Case, surfaces: Sequence[TriSurface]) -> Sequence[dict[int, int] | None]:

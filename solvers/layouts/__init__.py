@@ -6,8 +6,9 @@ from solvers.layouts.errors import LayoutError
 from solvers.layouts.gauge import in_joining_gauge, joined_field
 from solvers.layouts.layout import QuadLayout, quad_layout
 from solvers.layouts.patches import PatchMesh
+from solvers.layouts.saddle_connections import holding
 from solvers.layouts.separatrices import Separatrices, field_separatrices
-from solvers.layouts.snapping import Snapped, snap
+from solvers.layouts.snapping import Snapped, join, snap
 from solvers.layouts.tmesh import TMesh
 
 __all__ = [
@@ -18,7 +19,9 @@ __all__ = [
     "Snapped",
     "TMesh",
     "field_separatrices",
+    "holding",
     "in_joining_gauge",
+    "join",
     "joined_field",
     "quad_layout",
     "snap",

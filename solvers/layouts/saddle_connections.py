@@ -6,14 +6,19 @@ of them, beside those of the holonomy defects.
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Callable, Iterator
 from functools import cached_property
 
 import numpy as np
 
+from solvers.errors import SingularityError
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.fields.prepared import prepare
 from solvers.layouts.near_misses import SeparatrixWays
 from solvers.singularities.budget import Singularity
+from solvers.singularities.connections import Connections, checked_connections
+from solvers.surface.refinement import LEVELS
 from solvers.surface.triangulation import FloatArray, IntArray
 from solvers.validity.constrained_moves import ConstrainedMoves, Step, least_moves
 
@@ -21,6 +26,16 @@ Places = tuple[Singularity, ...]
 
 NEAR = np.radians(5)
 """Angle by which a separatrix misses what it is to meet, at most, radians. Chosen."""
+
+MET, EXACT = np.radians(0.5), np.radians(0.1)
+"""Angles of a miss that counts as none, and of one that is not tried to be made smaller, radians.
+
+Chosen: the maps that layouts are cut along differ from the field by as much as the second, and they
+join what is nearer than a degree.
+"""
+
+STEPS = 8
+"""Newton steps at most. Chosen: 2 to 4 are usual."""
 
 FARTHEST = 0.06
 """How far singularities may move for one connection, in square roots of the area. Chosen."""
@@ -69,12 +84,38 @@ class Configuration:
             return rows - rows.mean(axis=0), misses - misses.mean()
         return rows, misses
 
-    def near_misses(self) -> IntArray:
-        """Return the passings to be made none, those first that take the least moves."""
+    @cached_property
+    def _near(self) -> IntArray:
+        """The near misses, of those along a separatrix the first."""
         passings = self.ways.passings
         near = np.flatnonzero(passings.angles < NEAR)
-        # Of those along a separatrix the first.
-        near = near[np.unique(self.ways.trace_of(passings[near]), return_index=True)[1]]
+        return near[np.unique(self.ways.trace_of(passings[near]), return_index=True)[1]]
+
+    def between(self, pairs: Connections) -> IntArray:
+        """Return the passings that are meant by pairs of singularities: those that miss least.
+
+        Raises
+        ------
+        SingularityError
+            Not so many separatrices of a pair nearly meet.
+        """
+        passings, nearest = self.ways.passings, self._near
+        nearest = nearest[np.argsort(passings.angles[nearest], kind="stable")]
+        once = np.unique(passings.line[nearest], axis=0, return_index=True)[1]
+        nearest = nearest[np.sort(once)]
+        ends = np.sort(passings.nodes[nearest], axis=1)
+        found: list[int] = []
+        for pair, count in Counter(checked_connections(pairs, len(self.singularities))).items():
+            meant = nearest[(ends == pair).all(axis=1)][:count]
+            if len(meant) < count:
+                raise _apart(*pair)
+            found += meant.tolist()
+        return np.array(found, dtype=np.int64)
+
+    def near_misses(self, kept: IntArray) -> IntArray:
+        """Return the passings to be made none: some, then others that take the least moves."""
+        passings, near = self.ways.passings, self._near
+        near = np.concatenate([kept, near[~np.isin(near, kept)]])
         if not len(near):
             return near
         rows, misses = self.equations(near)
@@ -85,15 +126,18 @@ class Configuration:
         basis = np.zeros((0, rows.shape[1]))
         chosen: list[int] = []
         room = 2 * int(self.moves.free.sum()) - len(self.matrix)
+        moves[: len(kept)] = 0.0
         order = np.argsort(moves, kind="stable")
         once = np.unique(passings.line[near[order]], axis=0, return_index=True)[1]
         for i in order[np.sort(once)]:
-            if moves[i] > FARTHEST or len(chosen) >= room:
+            if moves[i] > FARTHEST or (i >= len(kept) and len(chosen) >= room):
                 break
             left = rows[i] - (basis @ rows[i]) @ basis
             size = float(np.linalg.norm(left))
-            if hold[i] > LEAST_HOLD and size * self.moves.unit > INDEPENDENT * hold[i]:
+            further = hold[i] > LEAST_HOLD and size * self.moves.unit > INDEPENDENT * hold[i]
+            if further:
                 basis = np.concatenate([basis, left[None] / size])
+            if further or i < len(kept):
                 chosen.append(int(near[i]))
         return np.array(chosen, dtype=np.int64)
 
@@ -115,19 +159,39 @@ class Connected:
         """None."""
         return (0,) * len(self.base.defects)
 
+    @property
+    def pairs(self) -> IntArray:
+        """(p, 2) the singularities that are to be joined, the lower number of each two first."""
+        return np.sort(self.passings.nodes, axis=1)
+
     @cached_property
-    def _equations(self) -> tuple[FloatArray, FloatArray]:
+    def equations(self) -> tuple[FloatArray, FloatArray]:
+        """How the misses change with moves (p, 2 k), and those (p,), radians."""
         return self.base.equations(self.which)
 
     @property
     def worst(self) -> float:
         """The largest miss or defect, radians."""
-        both = np.append(self._equations[1], self.base.defects)
+        both = np.append(self.equations[1], self.base.defects)
         return float(np.abs(both).max(initial=0.0))
+
+    @property
+    def met(self) -> bool:
+        """Whether no miss and no defect is one that counts."""
+        return bool(self.worst < MET)
+
+    def steps(self) -> Iterator[Connected]:
+        """Yield this, and what Newton's method makes of it step by step."""
+        at: Connected | None = self
+        for _ in range(STEPS):
+            if at is None:
+                return
+            yield at
+            at = None if at.worst < EXACT else at.advance()
 
     def advance(self) -> Connected | None:
         """Take the least step that makes them none, or a part of it; None where none is good."""
-        rows, misses = self._equations
+        rows, misses = self.equations
         linear = np.concatenate([self.base.matrix, rows])
         right = -np.concatenate([self.base.defects, misses])
         before, found = float(np.linalg.norm(misses)), list[Connected]()
@@ -137,7 +201,7 @@ class Connected:
 
         def accepted(step: Step) -> bool:
             there = self.followed(step.singularities, step.moves)
-            if there is None or np.linalg.norm(there._equations[1]) > FALLS * before:
+            if there is None or np.linalg.norm(there.equations[1]) > FALLS * before:
                 return False
             found[:] = [there]
             return True
@@ -149,7 +213,7 @@ class Connected:
         """Return the same after moves (k, 2); None if not all passings are found again."""
         base, passings = self.base.elsewhere(singularities), self.passings
         there = base.ways.passings
-        expected = passings.offset + passings.length * (self._equations[0] @ moves.reshape(-1))
+        expected = passings.offset + passings.length * (self.equations[0] @ moves.reshape(-1))
         which = np.zeros(len(passings), dtype=np.int64)
         for i, nodes in enumerate(passings.nodes):
             same = np.flatnonzero((there.nodes == nodes).all(axis=1))
@@ -160,3 +224,54 @@ class Connected:
                 return None
             which[i] = same[np.argmin(off)]
         return Connected(base, which)
+
+
+def _apart(one: int, other: int) -> SingularityError:
+    return SingularityError(
+        f"singularities {one + 1} and {other + 1} cannot be kept joined",
+        f"no separatrix of one passes the other by less than {np.degrees(NEAR):.0f} degrees",
+        "move them nearer to that, or let the connection go",
+    )
+
+
+def holding(
+    pairs: Connections, levels: int = LEVELS
+) -> Callable[[IsotropicSolver, ConstrainedMoves, Places], Connected]:
+    """Return what `solvers.validity.improve` holds for singularities to stay joined.
+
+    Parameters
+    ----------
+    pairs : tuple of (int, int)
+        As of `solvers.layouts.join`, which has joined them.
+    levels : int, optional
+        Of refinement at the singularities.
+
+    Returns
+    -------
+    callable
+        From a solver, the moves that singularities may make, and where they are, to what is held.
+
+    Examples
+    --------
+    Four valences 3 on a disk come to a square's corners, two of them joined all the while:
+
+    >>> from solvers import run
+    >>> from solvers.layouts import holding, join
+    >>> from solvers.primitives import disk
+    >>> from solvers.singularities import Singularity
+    >>> from solvers.validity import improve
+    >>> surface = disk(edge_length=0.1)
+    >>> places = [[0.5, 0.03, 0], [0, 0.4, 0], [-0.5, 0, 0], [0, -0.5, 0]]
+    >>> threes = [Singularity(surface.closest_point(place), 3) for place in places]
+    >>> joined = run(join(surface, threes, ((0, 1),))).singularities
+    >>> better = run(improve(surface, joined, hold=holding(((0, 1),))))
+    >>> again = run(join(surface, better.singularities, ((0, 1),)))
+    >>> again.singularities == better.singularities
+    True
+    """
+
+    def hold(solver: IsotropicSolver, moves: ConstrainedMoves, at: Places) -> Connected:
+        first = Configuration(solver, moves, levels, at)
+        return Connected(first, first.between(pairs))
+
+    return hold

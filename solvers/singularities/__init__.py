@@ -11,6 +11,7 @@ from solvers.singularities.budget import (
     index_budget,
     require_budget,
 )
+from solvers.singularities.connections import Connections, checked_connections
 from solvers.singularities.decision import Existence, existence
 from solvers.singularities.farthest import far_points
 from solvers.singularities.pairs import merged, pair_at, split
@@ -36,6 +37,7 @@ __all__ = [
     "ChangeCorners",
     "ChangeOne",
     "ChangeTurns",
+    "Connections",
     "Existence",
     "IndexBudget",
     "MergeTwo",
@@ -44,6 +46,7 @@ __all__ = [
     "Singularity",
     "SplitOne",
     "Theorem",
+    "checked_connections",
     "checked_corners",
     "checked_singularities",
     "decide",

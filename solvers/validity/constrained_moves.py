@@ -111,7 +111,7 @@ class ConstrainedMoves:
         singularities: Sequence[Singularity],
         features: Features,
     ) -> None:
-        self.surface, self.guide = surface, guide
+        self.surface, self.guide, self.features = surface, guide, features
         self._walls = np.zeros(len(surface.edges), dtype=bool)
         self._walls[features.edges] = True
         self.unit = float(np.sqrt(surface.area))

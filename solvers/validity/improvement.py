@@ -23,44 +23,16 @@ from solvers.surface.triangulation import FloatArray
 from solvers.surface.trisurface import TriSurface
 from solvers.validity.attempts import make_valid
 from solvers.validity.constrained_moves import (
-    LONGEST_STEP,
     Blocked,
     ConstrainedMoves,
-    Step,
-    least_moves,
-    rotations,
+    Obstacle,
 )
+from solvers.validity.descent import Descent, Held, Hold, Places
 from solvers.validity.search import TOLERANCE, Moved, Search
 from solvers.validity.unevenness import Sizes, Unevenness
 
-Places = tuple[Singularity, ...]
-
 STEPS = 100
 """Steps of the descent at most. Chosen: 12 to 30 are usual."""
-
-ENOUGH, PATIENCE = 1e-4, 3
-"""Relative gain of a step below which it counts as none, and how many such end the descent.
-
-Chosen.
-"""
-
-ARMIJO = 1e-4
-"""Share of the gain that the slope promises which a step must bring. Usual (Nocedal, Wright)."""
-
-ASTRAY = np.radians(5)
-"""Largest defect after a step for it to be corrected, radians: farther off, steps are too long.
-
-Chosen.
-"""
-
-CORRECTIONS = 6
-"""Newton steps after each, by look-up, to take its defects away. Chosen: 2 or 3 are usual."""
-
-FIRST = 0.03
-"""Longest move of the first step, in square roots of the surface's area. Chosen."""
-
-MEMORY = 12
-"""Pairs of moves and changes of the slope that the descent remembers. Chosen."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -113,6 +85,7 @@ def improve(
     *,
     wanted: FloatArray | None = None,
     features: Features | None = None,
+    hold: Hold | None = None,
 ) -> Generator[Progress, None, Improved]:
     """Move the unlocked singularities to where sizes are most even, all defects kept at zero.
 
@@ -130,6 +103,8 @@ def improve(
         Size wanted at each vertex of the surface; by default the same everywhere.
     features : Features, optional
         Of the surface. No singularity crosses one, and one on a feature stays.
+    hold : callable, optional
+        What more than the defects is to stay as it is: see `solvers.layouts.holding`.
 
     Returns
     -------
@@ -178,22 +153,25 @@ def improve(
         start = (
             yield from make_valid(surface, start, corners, levels, features=along)
         ).singularities
-    descent = _Descent(surface, solver, unevenness, start, along)
+    moves = ConstrainedMoves(surface, solver.holonomy, start, along)
+    held = None if hold is None else hold(solver, moves, start)
+    descent = Descent(moves, unevenness, start, held)
     before, none = descent.sizes, (0,) * len(solver.holonomy.conditions)
 
     def told(stage: str, done: float, at: Places, off: FloatArray, sizes: Sizes) -> Improved:
         return Improved(stage, done, at, off, none, start=start, before=before, sizes=sizes)
 
-    passed = [start]
+    passed: list[tuple[Places, Held | None]] = [(start, held)]
     for step in range(STEPS):
         yield told("improving", step / STEPS, descent.singularities, descent.defects, descent.sizes)
         if not descent.advance():
             break
-        passed.append(descent.singularities)
+        passed.append((descent.singularities, descent.held))
     while len(passed) > 1:
-        search = Search(surface, solver.holonomy, passed[-1], along)
+        at, held = passed[-1]
+        search = Search(surface, solver.holonomy, at, along)
         try:
-            near = yield from search.approach(passed[-1], none)
+            near = yield from search.approach(_exact(at, held), none)
             end = yield from search.verify(near, none, corners, levels)
         except Blocked:
             # Where the refined surface cannot be made valid, it can nearer to the start.
@@ -206,111 +184,12 @@ def improve(
     return told("valid", 1.0, start, solver.holonomy.defects(start), before)
 
 
-class _Descent:
-    """Limited memory quasi-Newton steps on one surface from one valid configuration."""
-
-    def __init__(
-        self,
-        surface: TriSurface,
-        solver: IsotropicSolver,
-        unevenness: Unevenness,
-        singularities: Places,
-        features: Features,
-    ) -> None:
-        self._guide, self._unevenness = solver.holonomy, unevenness
-        self._moves = ConstrainedMoves(surface, solver.holonomy, singularities, features)
-        self._memory: list[tuple[FloatArray, FloatArray]] = []
-        self._in_vain = 0
-        self._at(singularities, unevenness.sizes(singularities))
-
-    def _at(self, singularities: Places, sizes: Sizes) -> None:
-        self.singularities, self.sizes = singularities, sizes
-        self.defects = self._guide.defects(singularities)
-        self._slope = self._unevenness.gradient(sizes) * self._moves.free[:, None]
-        gradients = self._guide.gradients([s.point for s in singularities])
-        self._matrix = self._moves.by_moves(gradients)
-
-    def advance(self) -> bool:
-        """Take a step; return whether to go on."""
-        before, slope = self.sizes.variance, self._slope
-        found: list[tuple[Places, FloatArray, Sizes]] = []
-
-        def propose(rows: FloatArray, gaps: FloatArray, share: float) -> FloatArray:
-            both = np.concatenate([self._matrix, rows])
-            right = np.concatenate([-self.defects, gaps])
-            return share * self._downhill(both) + least_moves(both, right)
-
-        def accepted(step: Step) -> bool:
-            at, turns = self._corrected(step)
-            if np.abs(self._guide.defects(at)).max(initial=0.0) > TOLERANCE:
-                return False
-            sizes = self._unevenness.sizes(at)
-            found[:] = [(at, turns, sizes)]
-            promised = min(float((slope * step.moves).sum()), 0.0)
-            return sizes.variance < before + ARMIJO * promised
-
-        while True:
-            longest = float(np.linalg.norm(self._downhill(self._matrix), axis=1).max())
-            reach = (LONGEST_STEP if self._memory else FIRST) * self._moves.unit
-            share = min(1.0, reach / max(longest, 1e-300))
-            step = self._moves.advance(self.singularities, propose, accepted, share)
-            if isinstance(step, Step):
-                break
-            if not self._memory:
-                return False
-            self._memory = []  # once more, along the slope
-        at, turns, sizes = found[0]
-        carried = rotations(turns)
-        self._memory = [
-            (_turned(carried, s), _turned(carried, y)) for s, y in self._memory[1 - MEMORY :]
-        ]
-        self._at(at, sizes)
-        self._remember(_turned(carried, step.moves), self._slope - _turned(carried, slope))
-        self._in_vain = self._in_vain + 1 if sizes.variance > (1 - ENOUGH) * before else 0
-        return self._in_vain < PATIENCE
-
-    def _corrected(self, step: Step) -> tuple[Places, FloatArray]:
-        """Return where a step leads and its turns, the defects that it left taken away."""
-        at, turns = step.singularities, step.turns
-        for _ in range(CORRECTIONS):
-            defects = self._guide.defects(at)
-            if not TOLERANCE < np.abs(defects).max(initial=0.0) < ASTRAY:
-                break
-            matrix = self._moves.by_moves(self._guide.gradients([s.point for s in at]))
-            further = self._moves.moved(at, least_moves(matrix, -defects))
-            at, turns = further.singularities, turns + further.turns
-        return at, turns
-
-    def _remember(self, moved: FloatArray, change: FloatArray) -> None:
-        along = float((moved * change).sum())
-        if along > 1e-8 * float(np.linalg.norm(moved) * np.linalg.norm(change)):
-            self._memory.append((moved, change))
-
-    def _downhill(self, rows: FloatArray) -> FloatArray:
-        """Return the quasi-Newton move (k, 2) within the null space of equations."""
-        q = _within(rows, self._slope)
-        shares = []
-        for s, y in reversed(self._memory):
-            share = float((s * q).sum() / (s * y).sum())
-            shares.append(share)
-            q = q - share * y
-        if self._memory:
-            s, y = self._memory[-1]
-            q = q * float((s * y).sum() / (y * y).sum())
-        else:
-            steepest = float(np.linalg.norm(q, axis=1).max())
-            q = q * (FIRST * self._moves.unit / max(steepest, 1e-300))
-        for (s, y), share in zip(self._memory, reversed(shares), strict=True):
-            q = q + (share - float((y * q).sum() / (s * y).sum())) * s
-        return -_within(rows, q)
-
-
-def _within(rows: FloatArray, moves: FloatArray) -> FloatArray:
-    """Return the part of moves (k, 2) that leaves linear equations (c, 2 k) as they are."""
-    if not len(rows):
-        return moves
-    return moves - least_moves(rows, rows @ moves.reshape(-1))
-
-
-def _turned(rotations: FloatArray, vectors: FloatArray) -> FloatArray:
-    return np.asarray(np.einsum("kij,kj->ki", rotations, vectors))
+def _exact(singularities: Places, held: Held | None) -> Places:
+    """Return where further equations are met; raises Blocked where they cannot be."""
+    if held is None:
+        return singularities
+    for step in held.steps():
+        held = step
+    if not held.met:
+        raise Blocked(Obstacle.STALLED, held.equations[1])
+    return held.singularities

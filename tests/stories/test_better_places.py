@@ -1,5 +1,6 @@
 """From valid places to better ones: separatrices that meet, fewer singularities."""
 
+import json
 from itertools import pairwise
 from pathlib import Path
 
@@ -10,6 +11,8 @@ from crossview.cases.model import Builtin, Case, PlacedSingularity
 from crossview.session.state import SessionState
 from crossview.view.colors import WAITING
 from crossview.workflow.coarseness import Coarseness
+from solvers.fields import prepare
+from solvers.layouts.near_misses import SeparatrixWays
 from solvers.surface import FloatArray
 from tests.windowing import Hand
 
@@ -136,3 +139,61 @@ def test_where_there_is_no_layout_the_panel_tells_so(hand: Hand) -> None:
     assert hand.state.made.trouble is not None
     row = hand.window.validity_panel.places.coarseness
     assert (row.text.text(), row.color) == ("No layout", WAITING)
+
+
+def misses(hand: Hand) -> FloatArray:
+    """By how much separatrices miss that are to join the document's singularities, degrees."""
+    problem = hand.state.document.problem
+    ways = SeparatrixWays(prepare(problem.surface, problem.singularities))
+    angles = np.full((4, 4), np.inf)
+    one, other = np.sort(ways.passings.nodes, axis=1).T
+    np.minimum.at(angles, (one, other), np.degrees(ways.passings.angles))
+    return np.array([angles[pair] for pair in problem.connections])
+
+
+def test_what_snap_has_joined_is_kept_until_it_is_let_go(
+    hand: Hand, off: Path, tmp_path: Path
+) -> None:
+    panel = hand.window.validity_panel.places
+    assert not panel.let_go.isVisible()
+    snapped(hand)
+    assert hand.state.document.connections == ((0, 1), (0, 3), (1, 2), (2, 3))
+    assert (panel.connections.text(), panel.let_go.isVisible()) == ("4 connections kept", True)
+
+    case, again = hand.state.document.to_case(), tmp_path / "again.json"
+    case.save(again)
+    assert json.loads(again.read_text())["connections"] == [[0, 1], [0, 3], [1, 2], [2, 3]]
+    hand.open(again)
+    assert hand.state.document.connections == case.connections
+
+    before = hand.state.document
+    panel.improve.click()
+    hand.wait(lambda: hand.state.solved and hand.state.document is not before)
+    assert hand.state.document.connections == case.connections
+    assert misses(hand).max() < 0.5
+
+    hand.window.session.edits.remove(1)
+    assert hand.state.document.connections == ((0, 2), (1, 2))
+    hand.trigger("undo")
+    hand.window.session.pointer.select(1)
+    panel.let_go.click()
+    assert hand.state.document.connections == ((0, 3), (2, 3))
+    hand.window.session.edits.change_valence(0, 5)
+    assert hand.state.document.connections == ((2, 3),)
+    hand.trigger("undo")
+    hand.trigger("undo")
+    assert hand.state.document.connections == case.connections
+    hand.trigger("undo")
+    assert hand.state.document is before
+    assert not hand.window.actions_table.by_name["undo"].isEnabled()
+
+
+def test_what_cannot_be_kept_joined_says_so(hand: Hand, off: Path) -> None:
+    snapped(hand)
+    hand.window.session.edits.move({0: hand.state.shown_surface.closest_point([0.3, 0.25, 0.0])})
+    hand.wait()
+    before = hand.state.document
+    hand.trigger("improve")
+    hand.wait(lambda: hand.state.message is not None)
+    assert "singularities 1 and 4 cannot be kept joined" in hand.said
+    assert hand.state.document is before

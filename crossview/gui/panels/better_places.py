@@ -5,12 +5,21 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QGridLayout, QPushButton, QSpinBox, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QSpinBox,
+    QVBoxLayout,
+    QWidget,
+)
 
 from crossview.gui.panels.verdict_row import VerdictRow
 from crossview.session.state import SessionState
 from crossview.view.colors import GOOD, UNSURE, WAITING
 from crossview.workflow.coarseness import Coarseness
+from solvers.errors import counted
 
 
 class BetterPlaces(QWidget):
@@ -22,6 +31,14 @@ class BetterPlaces(QWidget):
         self.make_valid, self.improve, self.snap, self.simplify = (
             _button(actions[name]) for name in ("make-valid", "improve", "snap", "simplify")
         )
+        self.connections = QLabel()
+        self.let_go = _button(actions["let-connections-go"])
+        self.let_go.setText("Let go")
+        self._kept = QWidget()
+        kept = QHBoxLayout(self._kept)
+        kept.setContentsMargins(30, 0, 8, 0)
+        kept.addWidget(self.connections, 1)
+        kept.addWidget(self.let_go)
         self.most = QSpinBox()
         self.most.setPrefix("to ")
         self.most.setAccessibleName("Singularities to simplify to")
@@ -32,6 +49,7 @@ class BetterPlaces(QWidget):
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
         layout.addWidget(self.coarseness)
+        layout.addWidget(self._kept)
         buttons = QGridLayout()
         buttons.setContentsMargins(30, 4, 8, 4)
         buttons.setSpacing(6)
@@ -46,6 +64,7 @@ class BetterPlaces(QWidget):
         """Follow the window's state."""
         if old is None or old.document is not new.document:
             self._suggest(new)
+            self._show_connections(new)
         self._show_coarseness(new)
 
     def _suggest(self, state: SessionState) -> None:
@@ -54,6 +73,12 @@ class BetterPlaces(QWidget):
         if self.most.maximum() != max(count - 1, 0):
             self.most.setRange(0, max(count - 1, 0))
             self.most.setValue(count // 2)
+
+    def _show_connections(self, state: SessionState) -> None:
+        """Show how many are kept; nothing where there are none."""
+        count = 0 if state.document is None else len(state.document.connections)
+        self._kept.setVisible(count > 0)
+        self.connections.setText(f"{counted(count, 'connection')} kept")
 
     def _show_coarseness(self, state: SessionState) -> None:
         """Show that of the last layout, which in a drag is of before it."""

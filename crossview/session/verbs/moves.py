@@ -9,15 +9,15 @@ from typing import TypeVar
 
 import numpy as np
 
-from crossview.session.commands import Command, ReplaceSingularities
+from crossview.session.commands import Command, GiveUpConnections
 from crossview.session.message import Message, NaturalBy
 from crossview.session.verbs.group import VerbGroup
 from crossview.session.verbs.solving import STARTING
 from crossview.session.waypoints import (
-    IMPROVE,
     NATURAL_LABELS,
     Waypoint,
     improve_sizes,
+    improved_to,
     merge_to_fewer,
     move_to_validity,
     place_natural,
@@ -47,8 +47,8 @@ class Moves(VerbGroup):
 
     def improve(self) -> None:
         """Move the unlocked singularities to where sizes are most even; stopped, where they are."""
-        state = self._state
-        if state.document is None:
+        document = self._state.document
+        if document is None:
             return
 
         def done(found: tuple[Command, Improved]) -> None:
@@ -72,11 +72,11 @@ class Moves(VerbGroup):
 
         def stopped() -> None:
             if passed:
-                self._do(ReplaceSingularities(passed[-1].singularities, IMPROVE))
+                self._do(improved_to(document, passed[-1].singularities))
             else:
                 self._say_unchanged()
 
-        way = partial(improve_sizes, state.document, state.base)
+        way = partial(improve_sizes, document, self._state.base)
         self._run(lambda: relayed(way(), keep), done, stopped)
 
     def snap(self) -> None:
@@ -99,6 +99,11 @@ class Moves(VerbGroup):
             )
 
         self._run(partial(snap_separatrices, document, self._state.base), done, self._say_unchanged)
+
+    def let_connections_go(self) -> None:
+        """Keep none of the selected singularities joined; without any selected, none at all."""
+        state = self._state
+        self._do(GiveUpConnections(frozenset(state.focus.all or range(len(state.singularities)))))
 
     def simplify(self, most: int) -> None:
         """Merge unlocked singularities until `most` are left, and make those valid."""

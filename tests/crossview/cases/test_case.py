@@ -28,6 +28,7 @@ FULL = {
         {"position": [0.7, 0, 0], "valence": 3},
         {"position": [-0.7, 0, 0], "valence": 5, "locked": True},
     ],
+    "connections": [[0, 1], [1, 1]],
     "corners": [{"position": [1, 0, 0], "index": 1}],
     "method": "isotropic",
     "options": {
@@ -54,6 +55,7 @@ def test_reads_every_key() -> None:
         "isotropic",
         Options(0.5, 0, 1, True, (0, -1), 0.001, sizes=((1.0, 2.0), (1.5, 0.5))),
         title="An annulus",
+        connections=((0, 1), (1, 1)),
     )
 
 
@@ -118,6 +120,8 @@ def test_a_file_called_like_a_builtin_is_the_file(tmp_path: Path) -> None:
             "whole number from 1 to 100, found true",
         ),
         ({"singularities": [{"position": [0] * 3, "valence": 3, "locked": 1}]}, "true or false"),
+        ({"connections": [[0, 1]]}, r"no singularities to be connected.*connections"),
+        ({"connections": [0, 1]}, r"expected a list of 2 whole numbers.*connections\[0\]"),
         ({"corners": "automatic"}, 'expected "auto" or a list .*found "automatic"'),
         ({"corners": [{"position": [0, 0, 0], "index": 2}]}, r"to 1, found 2.*corners\[0\]\.index"),
         ({"method": "anistropic"}, 'unknown method "anistropic".*method.*mean "anisotropic"'),

@@ -61,7 +61,7 @@ FEATURES = st.fixed_dictionaries(
         "without": POLYLINES,
     },
 )
-CASES = st.fixed_dictionaries(
+UNCONNECTED = st.fixed_dictionaries(
     {"surface": st.one_of(built_in(), FILES)},
     optional={
         "title": st.text(min_size=1),
@@ -72,6 +72,18 @@ CASES = st.fixed_dictionaries(
         "options": OPTIONS,
     },
 )
+
+
+def connected(case: dict[str, Any]) -> st.SearchStrategy[dict[str, Any]]:
+    """The same case with connections between its singularities, if it has any."""
+    count = len(case.get("singularities", ()))
+    if not count:
+        return st.just(case)
+    pairs = st.lists(st.integers(0, count - 1), min_size=2, max_size=2)
+    return st.lists(pairs, max_size=3).map(lambda given: case | {"connections": given})
+
+
+CASES = UNCONNECTED.flatmap(connected)
 JSON = st.recursive(
     st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=8)),
     lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=8), inner),

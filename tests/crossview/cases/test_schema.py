@@ -123,7 +123,7 @@ def test_each_default_is_what_it_says() -> None:
     bare = Case.from_json({"surface": "torus"})
     assert Case.from_json({"surface": "torus", "options": given}) == bare
     own = {name: key["default"] for name, key in SCHEMA["properties"].items() if "default" in key}
-    assert set(own) == {"singularities", "corners", "features", "method", "options"}
+    assert set(own) == {"singularities", "connections", "corners", "features", "method", "options"}
     assert Case.from_json({"surface": "torus", **own}) == bare
 
 

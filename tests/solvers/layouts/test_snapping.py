@@ -11,13 +11,13 @@ from solvers.errors import SingularityError
 from solvers.fields.aligned import IntegratedField, aligned_field
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.fields.prepared import prepare
-from solvers.layouts import Snapped, quad_layout, snap
+from solvers.layouts import Snapped, holding, join, quad_layout, snap
 from solvers.layouts.near_misses import Passings, SeparatrixWays
 from solvers.primitives import BUILTIN
 from solvers.progress import Progress, run
 from solvers.singularities.budget import Singularity
 from solvers.surface import FloatArray, TriSurface, straightest
-from solvers.validity import make_valid, missing_singularities
+from solvers.validity import improve, make_valid, missing_singularities
 
 Places = tuple[Singularity, ...]
 
@@ -130,3 +130,30 @@ def test_where_nothing_can_be_snapped_it_is_said() -> None:
     corners = {int(v): 1 for v in disk.boundary_loops[0][::4][:6]}
     with pytest.raises(SingularityError, match="no separatrix can be made to meet"):
         run(snap(disk, [lone], corners))
+
+
+def test_joined_singularities_stay_so_while_they_are_improved() -> None:
+    surface, start = plate()
+    joined = run(snap(surface, start))
+    pairs = tuple((a, b) for a, b in joined.connections.tolist())
+    off = replace(start[0], point=straightest(surface, start[0].point, [0.02, 0.02]).end)
+    moved = (off, *joined.singularities[1:])
+    again = run(join(surface, moved, pairs))
+    assert sorted(again.connections.tolist()) == sorted(joined.connections.tolist())
+    assert patches(surface, again.singularities) == 12
+    free, held = (
+        run(improve(surface, moved)),
+        run(improve(surface, again.singularities, hold=holding(pairs))),
+    )
+    assert held.sizes.variance <= held.before.variance
+    assert run(join(surface, held.singularities, pairs)).singularities == held.singularities
+    assert free.singularities != held.singularities
+    assert patches(surface, held.singularities) == 12
+
+
+def test_pairs_that_no_separatrix_nearly_joins_are_refused() -> None:
+    surface, start = plate()
+    with pytest.raises(SingularityError, match="singularities 1 and 3 cannot be kept joined"):
+        run(join(surface, start, ((0, 2), (0, 2), (0, 2))))
+    with pytest.raises(SingularityError, match="whole numbers from 0 to 3, not 4"):
+        run(join(surface, start, ((0, 4),)))
