@@ -118,6 +118,16 @@ def _improvable(state: SessionState) -> bool:
     return any(s.index and not s.locked for s in document.singularities)
 
 
+def _simplifiable(state: SessionState) -> bool:
+    """Whether besides merging may leave fewer singularities."""
+    document = state.document
+    return (
+        _improvable(state)
+        and document is not None
+        and (document.fewest < len(document.singularities))
+    )
+
+
 def _connected(state: SessionState) -> bool:
     """Whether some singularities are to stay joined."""
     return state.document is not None and len(state.document.connections) > 0
@@ -368,7 +378,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "simplify", "Simplify", "Singularities", lambda w: w.simplify(),
         tip="Merge unlocked singularities until as many are left as the Validity panel says, "
         "and make those valid",
-        enabled=_improvable,
+        enabled=_simplifiable,
     ),
     *_naturals(),
     ActionSpec(

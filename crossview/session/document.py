@@ -17,6 +17,7 @@ from solvers.singularities import (
     index_budget,
 )
 from solvers.surface import TriSurface
+from solvers.validity import fewest_left
 
 EDITED = ", edited"
 """Ends the title of a case whose configuration is no longer as it says."""
@@ -77,6 +78,11 @@ class Document:
     def budget(self) -> IndexBudget:
         """The index sum against 4 chi (Poincare-Hopf)."""
         return index_budget(self.surface, self.singularities, self.corners)
+
+    @cached_property
+    def fewest(self) -> int:
+        """How many singularities merging leaves at the least."""
+        return fewest_left(self.singularities, self.problem.features)
 
     @cached_property
     def existence(self) -> Existence:

@@ -7,7 +7,7 @@ from solvers.validity.completion import MOST_PLACED, missing_singularities
 from solvers.validity.guide import Guide, LevelLines
 from solvers.validity.improvement import Improved, improve
 from solvers.validity.search import Moved
-from solvers.validity.simplification import simplify
+from solvers.validity.simplification import fewest_left, simplify
 from solvers.validity.unevenness import Sizes, Unevenness
 
 __all__ = [
@@ -20,6 +20,7 @@ __all__ = [
     "Sizes",
     "Unevenness",
     "ValidityError",
+    "fewest_left",
     "improve",
     "make_valid",
     "missing_singularities",

@@ -16,6 +16,7 @@ from solvers.number_checks import whole_number
 from solvers.progress import Progress
 from solvers.singularities.budget import Singularity, checked_singularities, require_budget
 from solvers.surface.refinement import LEVELS
+from solvers.surface.triangulation import IntArray
 from solvers.surface.trisurface import TriSurface
 from solvers.validity.attempts import make_valid
 from solvers.validity.search import Moved
@@ -102,3 +103,70 @@ def simplify(
         if index or s.locked
     )
     return (yield from make_valid(surface, left, corners, levels, features=along))
+
+
+def fewest_left(
+    singularities: Iterable[Singularity],
+    features: Features,
+    *,
+    most_valence: int = MOST_VALENCE,
+) -> int:
+    """Return how many singularities `simplify` leaves at the least, by their indices alone.
+
+    Parameters
+    ----------
+    singularities : iterable of Singularity
+        On a surface.
+    features : Features
+        Of the surface.
+    most_valence : int, optional
+        As of `simplify`.
+
+    Returns
+    -------
+    int
+        In which order they are merged may leave more.
+
+    Raises
+    ------
+    SingularityError
+        If one is no singularity.
+
+    Notes
+    -----
+    Opposite indices cancel until all within a region between features have the sign of their sum;
+    above zero none of them grows, below zero each may grow to the most valence.
+
+    Examples
+    --------
+    >>> from solvers.features import no_features
+    >>> from solvers.primitives import sphere
+    >>> from solvers.singularities import Singularity
+    >>> from solvers.validity import fewest_left
+    >>> surface = sphere(subdivisions=2)
+    >>> placed = [Singularity(surface.point_at_vertex(i), 3 if i < 9 else 5) for i in range(10)]
+    >>> fewest_left(placed, no_features(surface))
+    8
+    """
+    given = checked_singularities(singularities)
+    index = np.array([s.index for s in given], dtype=np.int64)
+    may = np.ones((len(given), len(given)), dtype=bool)
+    if len(features):
+        may = in_one_region(features, [s.point for s in given])
+    free = may.diagonal() & ~np.array([s.locked for s in given], dtype=bool)
+    region = may.argmax(axis=1) if len(given) else index
+    groups = [index[free & (region == number)] for number in np.unique(region[free])]
+    return int(np.count_nonzero(index[~free])) + sum(
+        _fewest(group, most_valence - 4) for group in groups
+    )
+
+
+def _fewest(index: IntArray, largest: int) -> int:
+    """Return how many of some indices are left at the least; negative ones grow."""
+    total = int(index.sum())
+    if not total:
+        return 0
+    sizes = np.sort(np.abs(index[index * total > 0]))[::-1]
+    if total < 0:
+        sizes = np.maximum(sizes, largest)
+    return 1 + int(np.searchsorted(np.cumsum(sizes), abs(total)))

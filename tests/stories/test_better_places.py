@@ -64,19 +64,19 @@ def test_what_is_snapped_stays(hand: Hand, off: Path) -> None:
     assert moves[1] < 0.1 * moves[0]
 
 
-def test_simplify_leaves_as_many_as_the_panel_says(hand: Hand, off: Path, tmp_path: Path) -> None:
+@pytest.fixture
+def more(hand: Hand, off: Path, tmp_path: Path) -> Path:
+    """The same with a pair more."""
     path = tmp_path / "more.json"
     case = Case.load(off)
     Case(case.surface, (*case.singularities, *PAIR)).save(path)
     hand.open(path)
-    panel, before = hand.window.validity_panel.places, hand.state.document
-    assert (panel.most.value(), panel.most.maximum()) == (3, 5)
-    panel.simplify.click()
-    hand.wait(lambda: hand.state.message is not None)
-    assert "no fewer than 4 singularities can be left, 3 are asked for" in hand.said
-    assert hand.state.document is before
+    return path
 
-    panel.most.setValue(4)
+
+def test_simplify_leaves_as_many_as_the_panel_says(hand: Hand, more: Path) -> None:
+    panel, before = hand.window.validity_panel.places, hand.state.document
+    assert (panel.most.minimum(), panel.most.value(), panel.most.maximum()) == (4, 4, 5)
     hand.window.session.pointer.select(5)
     panel.simplify.click()
     hand.wait(lambda: hand.state.solved and hand.state.document is not before)
@@ -90,7 +90,7 @@ def test_simplify_leaves_as_many_as_the_panel_says(hand: Hand, off: Path, tmp_pa
 
 
 @pytest.mark.parametrize("name", ["snap", "simplify"])
-def test_stopped_they_change_nothing(hand: Hand, off: Path, name: str) -> None:
+def test_stopped_they_change_nothing(hand: Hand, more: Path, name: str) -> None:
     before, field = hand.state.document, hand.state.field
 
     def stop_at_once(old: SessionState, new: SessionState) -> None:
@@ -108,7 +108,7 @@ def test_stopped_they_change_nothing(hand: Hand, off: Path, name: str) -> None:
 
 def test_what_is_locked_leaves_nothing_to_better(hand: Hand, off: Path) -> None:
     panel = hand.window.validity_panel.places
-    buttons = (panel.improve, panel.snap, panel.simplify, panel.most)
+    buttons = (panel.improve, panel.snap)
     for i in range(4):
         assert all(button.isEnabled() for button in buttons)
         hand.window.session.edits.toggle_lock(i)
@@ -197,3 +197,16 @@ def test_what_cannot_be_kept_joined_says_so(hand: Hand, off: Path) -> None:
     hand.wait(lambda: hand.state.message is not None)
     assert "singularities 1 and 4 cannot be kept joined" in hand.said
     assert hand.state.document is before
+
+
+def test_where_none_can_be_merged_simplify_is_not_offered(hand: Hand) -> None:
+    hand.open("sphere-cube")
+    panel = hand.window.validity_panel.places
+    assert not panel.simplify.isEnabled()
+    assert not panel.most.isEnabled()
+    assert panel.most.text() == "to 8"
+    hand.trigger("add-pair")
+    assert panel.simplify.isEnabled()
+    assert (panel.most.minimum(), panel.most.value(), panel.most.maximum()) == (8, 8, 9)
+    hand.window.session.edits.toggle_lock(8, 9)
+    assert not panel.simplify.isEnabled()

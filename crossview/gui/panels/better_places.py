@@ -68,10 +68,12 @@ class BetterPlaces(QWidget):
         self._show_coarseness(new)
 
     def _suggest(self, state: SessionState) -> None:
-        """Suggest half of the singularities that there are, where their number has changed."""
-        count = 0 if state.document is None else len(state.document.singularities)
-        if self.most.maximum() != max(count - 1, 0):
-            self.most.setRange(0, max(count - 1, 0))
+        """Suggest half of the singularities that there are, or the fewest that may be left."""
+        document = state.document
+        count = 0 if document is None else len(document.singularities)
+        fewest = 0 if document is None else document.fewest
+        if (self.most.minimum(), self.most.maximum()) != (fewest, max(count - 1, fewest)):
+            self.most.setRange(fewest, max(count - 1, fewest))
             self.most.setValue(count // 2)
 
     def _show_connections(self, state: SessionState) -> None:

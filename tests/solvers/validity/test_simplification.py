@@ -9,13 +9,14 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from solvers.errors import SingularityError
-from solvers.features.edges import Features
+from solvers.features.edges import Features, no_features
 from solvers.fields.isotropic import IsotropicSolver
+from solvers.fields.merging import Merging
 from solvers.primitives import BUILTIN
 from solvers.progress import run
 from solvers.singularities.budget import Singularity
 from solvers.surface import TriSurface
-from solvers.validity import ValidityError, simplify
+from solvers.validity import ValidityError, fewest_left, simplify
 
 CUBE = [[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
 
@@ -123,3 +124,30 @@ def test_turning_and_renumbering_change_nothing() -> None:
     one, two = run(simplify(surface, start, 10)), run(simplify(other, there, 10))
     kept = [start.index(s) for s in one.singularities]
     assert [len(start) - 1 - there.index(s) for s in two.singularities] == kept[::-1]
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_no_fewer_are_left_than_indices_allow(seed: int) -> None:
+    surface = BUILTIN["sphere"](subdivisions=3)
+    chance = np.random.default_rng(seed)
+    count = int(chance.integers(4, 30))
+    vertices = chance.choice(surface.n_vertices, count, replace=False)
+    valences = chance.choice([2, 3, 3, 3, 5, 5, 5, 6, 8], count)
+    placed = [
+        Singularity(surface.point_at_vertex(v), n, locked=bool(chance.random() < 0.2))
+        for v, n in zip(vertices.tolist(), valences.tolist(), strict=True)
+    ]
+    free = np.array([not s.locked for s in placed])
+    merging = Merging(IsotropicSolver(surface), placed)
+    merging.reduce(free[:, None] & free, 0, 8)
+    fewest = fewest_left(placed, no_features(surface))
+    assert fewest <= len(merging)
+
+
+def test_of_valence_3_alone_as_many_are_left_as_they_must() -> None:
+    surface = BUILTIN["sphere"](subdivisions=3)
+    start = eight_and_pairs(surface)
+    assert fewest_left(start, no_features(surface)) == 8
+    assert len(run(simplify(surface, start, 8)).singularities) == 8
+    with pytest.raises(SingularityError, match="no fewer than 8"):
+        run(simplify(surface, start, 7))
