@@ -35,7 +35,8 @@ def size_conditions(
     Returns
     -------
     list of Condition
-        For single arcs, and for consecutive ones that are longer, or bend by more, together.
+        For single arcs that are longer, or bend by more, and for consecutive ones that are, or do,
+        together: an edge for all.
 
     Raises
     ------
@@ -44,6 +45,9 @@ def size_conditions(
 
     Notes
     -----
+    Numbers are rounded for single arcs: so many that none is longer on average take quads from where
+    they are needed, and as few as fit leave edges of twice the length.
+
     Where the surface bends by more at once, as over a crease, one edge's turn is counted: no number
     of edges follows it.
 
@@ -69,11 +73,15 @@ def size_conditions(
         wanted.append(np.maximum(line.lengths / longest, np.minimum(line.turns / turn, 1)).sum())
     found = []
     for stretch in stretches(layout.arrangement, np.ones(len(every), dtype=bool)):
-        first, total = 0, 0.0
-        for k, arc in enumerate(stretch.arcs.tolist()):
+        short, total = [], 0.0
+        for arc in stretch.arcs.tolist():
+            if wanted[arc] > 1 - WHOLE:
+                found.append(Condition(np.array([arc]), int(np.rint(wanted[arc]))))
+                short, total = [], 0.0
+                continue
+            short.append(arc)
             total += wanted[arc]
-            least = int(total + WHOLE)
-            if least:
-                found.append(Condition(np.unique(stretch.arcs[first : k + 1]), least))
-                first, total = k + 1, 0.0
+            if total > 1 - WHOLE:
+                found.append(Condition(np.unique(short), 1))
+                short, total = [], 0.0
     return found

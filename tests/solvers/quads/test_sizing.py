@@ -1,4 +1,4 @@
-"""Bounds on long edges: no arc asks for more than its length, and what is met keeps means short."""
+"""Bounds on long edges: arcs ask for what their length does, and what is met keeps means short."""
 
 from collections.abc import Sequence
 
@@ -24,7 +24,7 @@ def lengths(layout: QuadLayout) -> FloatArray:
 
 @pytest.mark.parametrize("name", ["square", "disk with four", "ring of eight", "cube sphere"])
 @pytest.mark.parametrize("share", [0.01, 0.1, 1.0])
-def test_conditions_ask_for_whole_edges_of_their_arcs_each_arc_once(
+def test_conditions_ask_for_the_whole_edges_nearest_to_lengths_each_arc_once(
     name: str, share: float
 ) -> None:
     layout = layout_of(name)
@@ -34,7 +34,10 @@ def test_conditions_ask_for_whole_edges_of_their_arcs_each_arc_once(
     for condition in size_conditions(layout, longest):
         asked[condition.arcs] += 1
         together = length[condition.arcs].sum() / longest
-        assert together - 1 < condition.least <= together + 1e-6
+        if len(condition.arcs) == 1:
+            assert abs(together - condition.least) <= 0.5 + 1e-6
+        else:
+            assert condition.least == 1 <= together + 1e-6 < 2 + 1e-6
     assert asked.max() == 1
     assert (asked[length >= longest] == 1).all()
 
