@@ -30,6 +30,7 @@ from solvers.algebra.lanczos import ritz_vectors
 from solvers.algebra.mixing import AndersonMixing
 from solvers.errors import CrossviewError
 from solvers.features.edges import Features, no_features
+from solvers.features.regions import face_regions
 from solvers.fields.crossfield import Convergence, CrossField
 from solvers.fields.details import angles_without_details, curvatures_of, settled
 from solvers.fields.placement import MOST_VALENCE, placed_singularities
@@ -287,7 +288,7 @@ class _Crosses:
     def __init__(
         self, surface: TriSurface, features: Features, pull: float, angles: FloatArray
     ) -> None:
-        self.surface, self.angles = surface, angles
+        self.surface, self.features, self.angles = surface, features, angles
         self.t = t = surface.triangulation
         self.edge = surface.face_edges.reshape(-1)
         n = len(t.edge_halfedges)
@@ -466,7 +467,7 @@ class _Crosses:
         return _quarter_turns(np.concatenate([around, inside]))
 
     def lacking_quads(self, z: ComplexArray) -> IntArray:
-        """Return how many quads each vertex lacks for every sector between features to have one.
+        """Return vertex and region (k, 2) of each quad that a sector between features is lacking.
 
         A sector is what lies at a vertex between two edges that the crosses are aligned with.
         """
@@ -474,14 +475,12 @@ class _Crosses:
         h = np.arange(len(t.twin))
         # The corner at the head of a halfedge is that where the next one starts.
         sector = corner_sectors(t, ~self.free[self.edge])[next_halfedge(h)]
-        count = int(sector.max()) + 1
+        first = np.unique(sector, return_index=True)[1]
         angle = self.angles.reshape(-1)[next_halfedge(h)]
-        turned = np.bincount(sector, angle + self._turning(z), count).astype(np.float64)
-        quads = _quarter_turns(turned)
-        at = np.empty(count, dtype=np.int64)
-        at[sector] = t.head
-        lacking = np.bincount(at, np.maximum(0, 1 - quads), t.n_vertices).astype(np.int64)
-        return np.where(self.between_features, lacking, 0)
+        quads = _quarter_turns(np.bincount(sector, angle + self._turning(z)))
+        lacking = np.where(self.between_features[t.head[first]], np.maximum(0, 1 - quads), 0)
+        region = face_regions(self.features)[first // 3]
+        return np.repeat(np.stack([t.head[first], region], axis=1), lacking, axis=0)
 
     def _turning(self, z: ComplexArray) -> FloatArray:
         """Return by how much the cross turns from the midpoint of each halfedge to the next's."""

@@ -8,12 +8,13 @@ from __future__ import annotations
 from functools import cached_property
 
 import numpy as np
+import numpy.typing as npt
 from scipy.sparse import csr_array
 from scipy.spatial import cKDTree
 
 from solvers.errors import SingularityError
 from solvers.features.edges import Features
-from solvers.features.regions import in_one_region
+from solvers.features.regions import face_regions, in_one_region
 from solvers.fields.isotropic import IsotropicSolver
 from solvers.fields.merging import (
     LEAST_VALENCE,
@@ -55,9 +56,11 @@ def placed_singularities(
     index : (n + m,) int array
         Of the vertices, less that of the default corners, and of the triangles.
     features : Features
-        Of the surface; no index is placed on them, and none taken across.
-    lacking : (n,) int array
-        How many more quads each vertex needs for its sectors between features.
+        Of the surface; no index is placed on them, and none taken across: by Gauss and Bonnet each
+        region between them needs its own.
+    lacking : (k, 2) int array
+        The vertex and the region, as of `face_regions`, of each quad that is missing in a sector
+        between features.
     most_valence : int, optional
         Of a singularity.
     fewest : bool, optional
@@ -110,6 +113,11 @@ class _Placement:
         self._loads = csr_array((weights, (sites, corners)), shape=(n + m, n))
         self._barred = surface.boundary_vertices.copy()
         self._barred[surface.edges[features.edges]] = True
+        # Which regions each site lies in or beside.
+        region = face_regions(features)
+        beside = np.concatenate([surface.faces.reshape(-1), n + np.arange(m)])
+        near = (beside, np.concatenate([np.repeat(region, 3), region]))
+        self._regions = csr_array((np.ones(4 * m), near), shape=(n + m, int(region.max()) + 1))
 
     @property
     def singularities(self) -> tuple[Singularity, ...]:
@@ -125,17 +133,33 @@ class _Placement:
 
     def spread(self, least_index: int, lacking: IntArray) -> None:
         """Take what a site cannot carry off it, unit by unit to where the energy falls most."""
-        n = self._surface.n_vertices
-        carried = self._index.copy()
-        carried[:n] -= lacking
-        carried = np.clip(carried, least_index, 4 - LEAST_VALENCE)
-        carried[:n][self._surface.boundary_vertices] = 0
+        for vertex, region in lacking.tolist():
+            self._move(vertex, 1, self._within([region]), least_index)
+        carried = np.clip(self._index, least_index, 4 - LEAST_VALENCE)
+        carried[: self._surface.n_vertices][self._surface.boundary_vertices] = 0
         excess = self._index - carried
         for site in np.flatnonzero(excess).tolist():
-            sign = int(np.sign(excess[site]))
+            beside = self._within(self._regions[[site]].indices)
             for _ in range(abs(excess[site])):
-                self._index[site] -= sign
-                self._index[self._best(sign, least_index)] += sign
+                self._move(site, int(np.sign(excess[site])), beside, least_index)
+
+    def _within(self, regions: npt.ArrayLike) -> BoolArray:
+        """Return which sites are in or beside some regions."""
+        return np.asarray(self._regions[:, np.asarray(regions)].sum(axis=1) > 0)
+
+    def _move(self, site: int, sign: int, within: BoolArray, least_index: int) -> None:
+        """Move a unit from a site to the best of some, or of all if there is no room there."""
+        self._index[site] -= sign
+        free = self._free(within, sign, least_index)
+        if not free.any():
+            free = self._free(np.ones_like(within), sign, least_index)
+        if not free.any():
+            raise SingularityError(
+                "there is no room for the singularities that the surface needs",
+                f"{self._surface.n_faces} triangles",
+                "give a finer one",
+            )
+        self._index[self._best(free, sign)] += sign
 
     def cancel(self, *, anywhere: bool) -> None:
         """Let indices of opposite signs cancel: near ones if the energy falls, or all there are.
@@ -185,8 +209,8 @@ class _Placement:
         right[:n] -= QUARTER * (self._loads.T @ self._index)
         return potential(self._solver, right)[:n]
 
-    def _best(self, sign: int, least_index: int) -> int:
-        """Return the free site where one more unit lets the energy fall most.
+    def _best(self, free: BoolArray, sign: int) -> int:
+        """Return the site of some where one more unit lets the energy fall most.
 
         Near a boundary it costs what its mirror image does, 1/8 log of the distance in H (the
         Green's function of the half plane, Neumann).
@@ -196,14 +220,13 @@ class _Placement:
             rim = self._surface.vertices[self._surface.boundary_vertices]
             away = cKDTree(rim).query(self._positions)[0]
             h += sign * np.log(np.maximum(away, 1e-300)) / 8
-        free = self._free(sign, least_index)
         return int(np.argmax(np.where(free, sign * h, -np.inf)))
 
-    def _free(self, sign: int, least_index: int) -> BoolArray:
-        """Return which sites one more unit may go to: as far from the others as there is room."""
+    def _free(self, within: BoolArray, sign: int, least_index: int) -> BoolArray:
+        """Return which sites of some one more unit may go to: where there is most room."""
         n = self._surface.n_vertices
-        open_ = np.ones(len(self._index), dtype=bool)
-        open_[:n] = ~self._barred
+        open_ = within.copy()
+        open_[:n] &= ~self._barred
         taken = np.flatnonzero(self._index)
         for rings in range(RINGS, -1, -1):
             near = self._near(taken, rings)
@@ -218,12 +241,6 @@ class _Placement:
         if not free.any():
             after = self._index + sign
             free = open_ & (least_index <= after) & (after <= 4 - LEAST_VALENCE)
-        if not free.any():
-            raise SingularityError(
-                "there is no room for the singularities that the surface needs",
-                f"{self._surface.n_faces} triangles",
-                "give a finer one",
-            )
         return free
 
     def _near(self, sites: IntArray, rings: int) -> BoolArray:

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from solvers.errors import SingularityError
 from solvers.features.edges import Features, no_features
+from solvers.features.regions import face_regions
 from solvers.fields.placement import placed_singularities
 from solvers.primitives import BUILTIN
 from solvers.singularities.budget import Singularity
@@ -19,6 +20,7 @@ def placed(
     index: dict[int, int],
     *,
     features: Features | None = None,
+    lacking: tuple[tuple[int, int], ...] = (),
     most_valence: int = 8,
     fewest: bool = False,
 ) -> tuple[Singularity, ...]:
@@ -29,7 +31,7 @@ def placed(
         surface,
         at_sites,
         features or no_features(surface),
-        np.zeros(surface.n_vertices, dtype=np.int64),
+        np.array(lacking, dtype=np.int64).reshape(-1, 2),
         most_valence=most_valence,
         fewest=fewest,
     )
@@ -90,6 +92,49 @@ def test_pairs_do_not_cancel_across_features() -> None:
     pair = {vertex_at(surface, -0.05, 0.0): 1, vertex_at(surface, 0.05, 0.0): -1}
     assert len(placed(surface, pair, features=wall, fewest=True)) == 2
     assert placed(surface, pair, fewest=True) == ()
+
+
+@settings(max_examples=15, deadline=None)
+@given(seed=st.integers(0, 1000))
+def test_each_region_keeps_the_sum_that_gauss_and_bonnet_ask_of_it(seed: int) -> None:
+    surface = BUILTIN["square"](n=12)
+    x, y, _ = surface.vertices[surface.edges].transpose(2, 0, 1)
+    crossing = (np.abs(x) < 1e-9).all(axis=1) | (np.abs(y) < 1e-9).all(axis=1)
+    walls = Features(surface, np.flatnonzero(crossing))
+    region = face_regions(walls)
+    inside = np.flatnonzero(~np.isin(np.arange(surface.n_vertices), surface.edges[crossing]))
+    inside = inside[~surface.boundary_vertices[inside]]
+    rng = np.random.default_rng(seed)
+    vertices = rng.choice(inside, 5, replace=False)
+    indices = rng.integers(-8, 5, 5)
+    middle = vertex_at(surface, 0, 0)
+    short = tuple((middle, int(r)) for r in rng.integers(0, 4, 2))
+    given = dict(zip(vertices.tolist(), indices.tolist(), strict=True))
+    found = placed(surface, given, features=walls, lacking=short)
+    before, after = np.zeros(4), np.zeros(4)
+    np.add.at(before, region[[surface.point_at_vertex(int(v)).face for v in vertices]], indices)
+    np.add.at(before, [r for _, r in short], 1)
+    kept = [s for s in found if surface.nearest_vertex(s.point) != middle]
+    np.add.at(after, region[[s.point.face for s in kept]], [s.index for s in kept])
+    assert after.tolist() == before.tolist()
+    assert sum(s.index for s in found if s not in kept) == -2
+
+
+def test_a_hole_that_is_capped_by_a_fan_keeps_what_its_middle_has_too_much() -> None:
+    angle = np.linspace(0, 2 * np.pi, 24, endpoint=False)
+    ring = np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)
+    i = np.arange(24)
+    j = (i + 1) % 24
+    fan = np.stack([np.zeros(24, dtype=np.int64), 1 + i, 1 + j], axis=1)
+    wall = np.concatenate(
+        [np.stack([1 + i, 25 + i, 1 + j], axis=1), np.stack([25 + i, 25 + j, 1 + j], axis=1)]
+    )
+    points = np.concatenate([np.zeros((1, 3)), ring, ring + [0, 0, 1]])
+    cap = TriSurface(points, np.concatenate([fan, wall]))
+    rim = np.isin(cap.edges, 1 + i).all(axis=1)
+    found = placed(cap, {0: 4}, features=Features(cap, np.flatnonzero(rim)))
+    assert sorted(s.valence for s in found) == [2, 3, 3]
+    assert np.allclose(cap.positions([s.point for s in found])[:, 2], 0)
 
 
 def test_no_room_is_one_line() -> None:
