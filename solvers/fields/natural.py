@@ -477,7 +477,8 @@ class _Crosses:
         sector = corner_sectors(t, ~self.free[self.edge])[next_halfedge(h)]
         first = np.unique(sector, return_index=True)[1]
         angle = self.angles.reshape(-1)[next_halfedge(h)]
-        quads = _quarter_turns(np.bincount(sector, angle + self._turning(z)))
+        turned = np.bincount(sector, angle + self._turning(z)).astype(np.float64)
+        quads = _quarter_turns(turned)
         lacking = np.where(self.between_features[t.head[first]], np.maximum(0, 1 - quads), 0)
         region = face_regions(self.features)[first // 3]
         return np.repeat(np.stack([t.head[first], region], axis=1), lacking, axis=0)

@@ -45,8 +45,8 @@ def size_conditions(
 
     Notes
     -----
-    Numbers are rounded for single arcs: so many that none is longer on average take quads from where
-    they are needed, and as few as fit leave edges of twice the length.
+    Numbers are rounded for single arcs: so many that none is longer take quads from where they are
+    needed, and as few as fit leave edges of twice the length.
 
     Where the surface bends by more at once, as over a crease, one edge's turn is counted: no number
     of edges follows it.
@@ -73,7 +73,8 @@ def size_conditions(
         wanted.append(np.maximum(line.lengths / longest, np.minimum(line.turns / turn, 1)).sum())
     found = []
     for stretch in stretches(layout.arrangement, np.ones(len(every), dtype=bool)):
-        short, total = [], 0.0
+        short: list[int] = []
+        total = 0.0
         for arc in stretch.arcs.tolist():
             if wanted[arc] > 1 - WHOLE:
                 found.append(Condition(np.array([arc]), int(np.rint(wanted[arc]))))
