@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QToolTip
 from crossview.gui.group import Group
 from crossview.gui.picking import Pick
 from crossview.gui.viewport import Viewport
+from crossview.session.hand import SelectTool
 from crossview.session.session import Session
 from solvers.surface import SurfacePoint
 
@@ -173,8 +174,21 @@ class Mouse(QObject):
                 self._session.measuring.click(state.lifted(pick.point))
         elif pick is not None and state.added_valence is not None:
             self._session.edits.add(pick.point, state.added_valence)
+        elif (near := self._near_miss_at(place)) is not None:
+            self._session.moves.connect(near)
         else:
             self._session.pointer.select(None)
+
+    def _near_miss_at(self, place: QPointF) -> tuple[int, int] | None:
+        """Return the singularities that a click at a place would join, with the select tool."""
+        state = self._session.state
+        if state.near_misses is None or not isinstance(state.tool, SelectTool):
+            return None
+        number = self._viewport.near_miss_at(place)
+        if number is None:
+            return None
+        one, other = state.near_misses.pairs[number].tolist()
+        return one, other
 
     def _ask_menu(self, place: QPointF, global_place: QPoint) -> None:
         """Ask for the menu of what is under a place."""
@@ -202,7 +216,9 @@ class Mouse(QObject):
             self.under_menu = None
         self.hovered.emit(pick)
         over = None if place is None else self._viewport.singularity_at(place)
-        self._viewport.point_out(over)
+        near = None if place is None or over is not None else self._near_miss_at(place)
+        self._viewport.point_out(over is not None or near is not None)
+        self._viewport.plotter.setToolTip("" if near is None else _offer(*near))
         self._session.pointer.hover(over)
         if self._session.state.mark_tool is not None:
             self._session.feature_marks.hover(None if pick is None else pick.point, self._onwards)
@@ -217,3 +233,8 @@ class Mouse(QObject):
         self._grip = _Grip.NOTHING
         self._session.trials.cancel()
         return True
+
+
+def _offer(one: int, other: int) -> str:
+    """Return what is said of a near miss under the mouse."""
+    return f"Nearly joins singularities {one + 1} and {other + 1}: a click does"

@@ -11,7 +11,7 @@ from vtkmodules.vtkCommonCore import mutable
 from vtkmodules.vtkCommonDataModel import vtkStaticCellLocator
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
-from crossview.view.values import Plane
+from crossview.view.values import Plane, Polylines
 from solvers.surface import SurfacePoint, TriSurface
 
 Place = tuple[float, float]
@@ -101,6 +101,30 @@ class Picker:
             if near_enough and self._visible(position, centre, radius):
                 best = (distance, index)
         return None if best is None else best[1]
+
+    def curve(self, place: Place, curves: Polylines, reach: float) -> int | None:
+        """Return which of curves on the surface is drawn under `place`.
+
+        Parameters
+        ----------
+        place : Place
+        curves : Polylines
+        reach : float
+            Device pixels beside a curve that count as on it.
+        """
+        pick, segments = self.pick(place), curves.segments
+        if pick is None or not len(segments):
+            return None
+        start, end = curves.points[segments[:, 0]], curves.points[segments[:, 1]]
+        along, away = end - start, pick.position - start
+        size = np.maximum((along**2).sum(axis=1), np.finfo(float).tiny)
+        part = np.clip((along * away).sum(axis=1) / size, 0.0, 1.0)
+        nearest = start + part[:, None] * along
+        best = int(np.linalg.norm(nearest - pick.position, axis=1).argmin())
+        x, y = self._display(nearest[best])
+        if np.hypot(x - place[0], y - place[1]) > reach:
+            return None
+        return int(np.searchsorted(curves.offsets, segments[best, 0], side="right")) - 1
 
     def within(
         self, low: Place, high: Place, positions: NDArray[np.float64], radius: float

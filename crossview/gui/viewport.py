@@ -41,6 +41,7 @@ from crossview.session.pictures import scene_view
 from crossview.session.session import Session
 from crossview.session.state import SessionState
 from crossview.view.colors import THEMES
+from crossview.view.meshes import near_misses_of
 from crossview.view.scalars import shown_scalar
 from crossview.workflow.spots import Spot
 from solvers.surface import SurfacePoint
@@ -211,6 +212,14 @@ class Viewport(QWidget):
         reach = REACH * self.devicePixelRatioF()
         return self.picker.nearest(self._place(place), positions, radius, reach)
 
+    def near_miss_at(self, place: QPointF) -> int | None:
+        """Return the number of the near miss that is drawn under a place of the widget."""
+        found = self._session.state.near_misses
+        if found is None:
+            return None
+        reach = REACH * self.devicePixelRatioF()
+        return self.picker.curve(self._place(place), near_misses_of(found), reach)
+
     def singularities_in(self, area: QRectF) -> tuple[int, ...]:
         """Return the numbers of the singularities seen in an area of the widget."""
         low, high = self._place(area.bottomLeft()), self._place(area.topRight())
@@ -237,12 +246,12 @@ class Viewport(QWidget):
         size = state.layers["singularities"].size
         return positions, marker_radius(markers, document.surface.diagonal, size)
 
-    def point_out(self, singularity: int | None) -> None:
-        """Show by the cursor that something can be taken hold of."""
+    def point_out(self, something: bool) -> None:
+        """Show by the cursor whether something can be taken hold of or clicked."""
         hand = Qt.CursorShape.PointingHandCursor
         idle = isinstance(self._session.state.tool, SelectTool)
         plain = Qt.CursorShape.ArrowCursor if idle else Qt.CursorShape.CrossCursor
-        self.plotter.setCursor(plain if singularity is None else hand)
+        self.plotter.setCursor(hand if something else plain)
 
     def pass_on(self, event: QEvent) -> bool:
         """Hand an event to VTK's camera without its extra frame; say that it is dealt with."""

@@ -31,6 +31,7 @@ from crossview.scene.legend import (
 )
 from crossview.scene.marks import MarksLayer
 from crossview.scene.measure import MeasureLayer
+from crossview.scene.near_misses import NearMissesLayer
 from crossview.scene.problems import ProblemLayer
 from crossview.scene.quads import QuadsLayer
 from crossview.scene.separatrices import SeparatricesLayer
@@ -98,6 +99,7 @@ class Scene:
             SectionLayer,
             CutLayer,
             LoopLayer,
+            NearMissesLayer,
             GuideLayer,
             MarksLayer,
             SingularitiesLayer,

@@ -37,7 +37,7 @@ from crossview.workflow.pipeline import Solution
 from crossview.workflow.problem import Problem
 from solvers.features import Features
 from solvers.fields import CrossField
-from solvers.layouts import Separatrices
+from solvers.layouts import NearMisses, Separatrices
 from solvers.progress import Progress
 from solvers.singularities import Existence, IndexBudget, Singularity, index_budget
 from solvers.surface import FloatArray, IntArray, SurfacePoint, TriSurface
@@ -74,6 +74,8 @@ class Facts:
         Whether as few natural singularities are left as the index budget allows.
     guide : tuple of GuideLine
         Where the singularity under the mouse may go.
+    near_misses : NearMisses or None
+        Separatrices that a click makes meet what they nearly meet, where they have been looked for.
     clip : Plane or None
         What is before it is not shown.
     poor : bool
@@ -100,6 +102,7 @@ class Facts:
     along_curvature: bool = False
     fewest_natural: bool = False
     guide: tuple[GuideLine, ...] = ()
+    near_misses: NearMisses | None = None
     clip: Plane | None = None
     poor: bool = False
     layers: Mapping[str, LayerSettings] = dataclasses.field(default_factory=default_layers)

@@ -14,7 +14,14 @@ from crossview.session.held_ranges import NO_RANGES, Ranges
 from crossview.session.state import SessionState
 from crossview.view.colors import condition_color
 from crossview.view.field import feature_lines, field_view, markers_of
-from crossview.view.meshes import curves_of, patches_of, quads_of, t_junctions_of, worst_of
+from crossview.view.meshes import (
+    curves_of,
+    near_misses_of,
+    patches_of,
+    quads_of,
+    t_junctions_of,
+    worst_of,
+)
 from crossview.view.scalars import SURFACE_SCALARS
 from crossview.view.scene_view import Background, LayerSettings, SceneView
 from crossview.view.texts import measured
@@ -70,6 +77,7 @@ def scene_view(state: SessionState, held: Ranges = NO_RANGES) -> SceneView:
         loop=_loop(state),
         loop_color="" if condition is None else condition_color(condition),
         guide=state.guide,
+        near_misses=None if state.near_misses is None else near_misses_of(state.near_misses),
         clip=state.clip,
         measurement=_measurement(state, document.surface),
         problem=Elements(faces=poor_faces(surface)) if state.poor else state.pointed,
@@ -117,6 +125,7 @@ def figure_view(state: SessionState, transparent: bool, held: Ranges = NO_RANGES
         trial=None,
         focus=Focus(),
         guide=(),
+        near_misses=None,
         clip=None,
         poor=False,
         tool=SelectTool(),

@@ -18,6 +18,7 @@ from crossview.session.verbs.guide_lines import GuideLines
 from crossview.session.verbs.looks import Looks
 from crossview.session.verbs.measuring import Measuring
 from crossview.session.verbs.moves import Moves
+from crossview.session.verbs.near_misses import NearMissFinder
 from crossview.session.verbs.pairs import Pairs
 from crossview.session.verbs.pointer import Pointer
 from crossview.session.verbs.quad_making import QuadMaking
@@ -54,16 +55,19 @@ class Session(Store):
         self.feature_marks = FeatureMarks(self, self.solving, self.edits.do)
         self.quad_making = QuadMaking(self, self.solving)
         self.guide_lines = GuideLines(self, loop)
+        self.near_misses = NearMissFinder(self, loop)
         self.measuring = Measuring(self, loop)
 
     @property
     def busy(self) -> bool:
         """Whether an answer of the background is still awaited."""
-        return self.solving.busy or self.guide_lines.busy or self.measuring.busy
+        parts = (self.solving, self.guide_lines, self.near_misses, self.measuring)
+        return any(part.busy for part in parts)
 
     def close(self) -> None:
         """End the background threads."""
         self.guide_lines.close()
+        self.near_misses.close()
         self.measuring.close()
         self.solving.close()
 

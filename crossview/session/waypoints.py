@@ -123,6 +123,29 @@ def snap_separatrices(
     return command, end
 
 
+def connect(
+    document: Document, base: LiveBase | None, pair: tuple[int, int]
+) -> Generator[Progress, None, tuple[Command, Snapped]]:
+    """Move the unlocked singularities until a separatrix joins two; yields each `Waypoint`.
+
+    Returns
+    -------
+    Command
+    Snapped
+        Which singularities are joined, these among them.
+
+    Raises
+    ------
+    SingularityError
+        As `solvers.layouts.join`.
+    """
+    wanted = replace(document.problem, connections=(*document.connections, pair))
+    made, end = yield from relayed(configurations.connect(wanted), partial(_waypoint, base))
+    one, other = sorted(pair)
+    name = f"connect singularities {one + 1} and {other + 1}"
+    return ReplaceSingularities(end.singularities, name, connections=made.connections), end
+
+
 def merge_to_fewer(
     document: Document, base: LiveBase | None, most: int
 ) -> Generator[Progress, None, Command]:

@@ -39,6 +39,9 @@ SURFACE = "#dcdee2"
 CROSS = "#1b1e24"
 """Of crosses."""
 
+NEAR_MISS = "#1c1c1c"
+"""Of separatrices that nearly meet a singularity."""
+
 CUT = "#1f5fd6"
 """Of the cut graph."""
 

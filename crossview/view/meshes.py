@@ -14,7 +14,7 @@ import numpy as np
 
 from crossview.view.values import FloatArray, Polylines, Quads
 from crossview.workflow.spots import POOR, worst_quads
-from solvers.layouts import QuadLayout, Separatrices
+from solvers.layouts import NearMisses, QuadLayout, Separatrices
 from solvers.quads import QuadMesh
 
 Source = TypeVar("Source")
@@ -38,6 +38,12 @@ def _once(draw: Callable[[Source], Drawing]) -> Callable[[Source], Drawing]:
 def curves_of(separatrices: Separatrices) -> Polylines:
     """Return separatrices as curves to draw."""
     return Polylines(separatrices.points, separatrices.offsets, separatrices.valences)
+
+
+@_once
+def near_misses_of(found: NearMisses) -> Polylines:
+    """Return near misses as curves to draw."""
+    return Polylines(found.points, found.offsets, np.zeros(len(found), dtype=np.int64))
 
 
 @_once

@@ -151,7 +151,9 @@ LAYERS: tuple[LayerKind, ...] = (
         ("coloring", "edges", "size", "shaded", "value_range"), visible=False, edges=True,
     ),
     LayerKind(
-        "guide", "Validity guide", "Where the singularity under the mouse may go", ("size",)
+        "guide", "Validity guide",
+        "Where the singularity under the mouse may go; dotted: what separatrices nearly meet",
+        ("size",),
     ),
     LayerKind("singularities", "Singularities", "Discs in the colours of valences", ("size",)),
     LayerKind(
@@ -222,6 +224,8 @@ class SceneView:
         Empty for its own.
     guide : tuple of GuideLine
         Where the singularity under the mouse may go.
+    near_misses : Polylines, optional
+        From singularities along separatrices to those that they nearly meet.
     measurement : Measurement, optional
     problem : Elements, optional
         Offending elements to point out.
@@ -262,6 +266,7 @@ class SceneView:
     loop: IntArray | None = None
     loop_color: str = ""
     guide: tuple[GuideLine, ...] = ()
+    near_misses: Polylines | None = None
     measurement: Measurement | None = None
     problem: Elements | None = None
     separatrices: Polylines | None = None

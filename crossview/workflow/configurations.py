@@ -19,7 +19,7 @@ from solvers.fields import (
     IsotropicSolver,
     natural_singularities,
 )
-from solvers.layouts import Snapped, holding, join
+from solvers.layouts import NearMisses, Snapped, holding, join, nearly_connected
 from solvers.layouts import snap as moved_to_meet
 from solvers.singularities import require_budget
 from solvers.validity import Improved, Moved, missing_singularities
@@ -131,7 +131,8 @@ def make_valid(problem: Problem) -> Generator[Progress, None, tuple[Problem, Mov
     )
     if problem.connections:
         valid = replace(problem, singularities=end.singularities)
-        end = replace((yield from _joined(valid)), aim=end.aim)
+        valid, joined = yield from connect(valid)
+        return valid, replace(joined, aim=end.aim)
     return replace(problem, singularities=end.singularities), end
 
 
@@ -155,8 +156,7 @@ def improve(problem: Problem) -> Generator[Progress, None, tuple[Problem, Improv
     wanted = None if sizes is None else read_sizes(sizes, problem.surface.n_vertices)
     hold = None
     if problem.connections:
-        joined = yield from _joined(problem)
-        problem = replace(problem, singularities=joined.singularities)
+        problem, _ = yield from connect(problem)
         hold = holding(problem.connections, problem.options.refine)
     end = yield from moved_to_even_sizes(
         problem.surface,
@@ -197,6 +197,49 @@ def snap(problem: Problem) -> Generator[Progress, None, tuple[Problem, Snapped]]
     return replace(problem, singularities=end.singularities, connections=pairs), end
 
 
+def connect(problem: Problem) -> Generator[Progress, None, tuple[Problem, Snapped]]:
+    """Move the unlocked singularities until its connections hold.
+
+    Returns
+    -------
+    Problem
+    Snapped
+        The last step of the way.
+
+    Raises
+    ------
+    SingularityError
+        As `solvers.layouts.join`.
+    """
+    end = yield from join(
+        problem.surface,
+        problem.singularities,
+        problem.connections,
+        problem.corners,
+        problem.options.refine,
+        features=problem.features,
+    )
+    return replace(problem, singularities=end.singularities), end
+
+
+def near_misses(problem: Problem) -> Generator[Progress, None, NearMisses]:
+    """What `snap` would join beside what is.
+
+    Raises
+    ------
+    SingularityError
+        As `solvers.layouts.nearly_connected`.
+    """
+    return nearly_connected(
+        problem.surface,
+        problem.singularities,
+        problem.corners,
+        problem.options.refine,
+        features=problem.features,
+        kept=problem.connections,
+    )
+
+
 def simplify(
     problem: Problem, most: int, *, most_valence: int = MOST_VALENCE
 ) -> Generator[Progress, None, tuple[Problem, Moved]]:
@@ -229,15 +272,3 @@ def simplify(
         most_valence=most_valence,
     )
     return replace(problem, singularities=end.singularities, connections=()), end
-
-
-def _joined(problem: Problem) -> Generator[Progress, None, Snapped]:
-    """Move the unlocked singularities until those of the connections are joined."""
-    return join(
-        problem.surface,
-        problem.singularities,
-        problem.connections,
-        problem.corners,
-        problem.options.refine,
-        features=problem.features,
-    )

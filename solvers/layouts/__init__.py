@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from solvers.layouts.candidates import NearMisses, nearly_connected
 from solvers.layouts.errors import LayoutError
 from solvers.layouts.gauge import in_joining_gauge, joined_field
 from solvers.layouts.layout import QuadLayout, quad_layout
@@ -13,6 +14,7 @@ from solvers.layouts.tmesh import TMesh
 
 __all__ = [
     "LayoutError",
+    "NearMisses",
     "PatchMesh",
     "QuadLayout",
     "Separatrices",
@@ -23,6 +25,7 @@ __all__ = [
     "in_joining_gauge",
     "join",
     "joined_field",
+    "nearly_connected",
     "quad_layout",
     "snap",
 ]

@@ -26,7 +26,9 @@ from solvers.layouts.charts import ComplexArray
 from solvers.layouts.connections import way_between
 from solvers.layouts.crossings import crossings
 from solvers.layouts.gauge import before_winding, chart_by_sides, in_joining_gauge
+from solvers.layouts.motorcycles import Stops
 from solvers.layouts.nodes import singular_nodes, starts_at
+from solvers.layouts.separatrices import as_curves
 from solvers.layouts.tracing import trace
 from solvers.surface.homology import DualTree
 from solvers.surface.triangulation import QUARTER, BoolArray, FloatArray, IntArray
@@ -130,6 +132,30 @@ class SeparatrixWays:
     def trace_of(self, passings: Passings) -> IntArray:
         """Return the separatrix (p,) that each is on."""
         return self._traces.chords.trace[passings.chords[:, 0]]
+
+    def curves(self, passings: Passings) -> tuple[FloatArray, IntArray]:
+        """Return the ways from first singularities to second: points (q, 3), offsets (p + 1,).
+
+        Each goes along the separatrix until it passes, and back along the other to what it passes.
+        """
+        traces, surface = self._traces, self._prepared.surface
+        critical = np.ones(len(self._nodes), dtype=bool)
+        points, offsets = [np.empty((0, 3))], [0]
+        for pair, length, offset in zip(
+            traces.chords.trace[passings.chords], passings.length, passings.offset, strict=True
+        ):
+            kept = np.zeros(len(traces.ends), dtype=bool)
+            kept[pair] = True
+            at = np.zeros(len(kept))
+            at[pair] = length, abs(offset)
+            stopped = Stops(kept, at, np.zeros(len(kept), dtype=np.int64))
+            both = as_curves(surface, self._nodes, critical, traces, stopped)
+            there, back = np.split(both.points, [both.offsets[1]])[
+                :: 1 if pair[0] < pair[1] else -1
+            ]
+            points.append(np.concatenate([there, back[::-1]]))
+            offsets.append(offsets[-1] + len(points[-1]))
+        return np.concatenate(points), np.array(offsets)
 
     def gradients(self, passings: Passings, axes: FloatArray) -> FloatArray:
         """Return how offsets change as singularities move.

@@ -85,11 +85,13 @@ class Configuration:
         return rows, misses
 
     @cached_property
-    def _near(self) -> IntArray:
-        """The near misses, of those along a separatrix the first."""
+    def _direct(self) -> IntArray:
+        """The passings of separatrices that have met no other singularity before."""
         passings = self.ways.passings
-        near = np.flatnonzero(passings.angles < NEAR)
-        return near[np.unique(self.ways.trace_of(passings[near]), return_index=True)[1]]
+        trace = self.ways.trace_of(passings)
+        met, meets = np.full(trace.max(initial=-1) + 1, np.inf), passings.angles < MET
+        np.minimum.at(met, trace[meets], passings.length[meets])
+        return np.flatnonzero((passings.angles < NEAR) & (passings.length <= met[trace]))
 
     def between(self, pairs: Connections) -> IntArray:
         """Return the passings that are meant by pairs of singularities: those that miss least.
@@ -99,8 +101,8 @@ class Configuration:
         SingularityError
             Not so many separatrices of a pair nearly meet.
         """
-        passings, nearest = self.ways.passings, self._near
-        nearest = nearest[np.argsort(passings.angles[nearest], kind="stable")]
+        passings, nearest = self.ways.passings, self._direct
+        nearest = nearest[np.argsort(np.abs(passings.offset[nearest]), kind="stable")]
         once = np.unique(passings.line[nearest], axis=0, return_index=True)[1]
         nearest = nearest[np.sort(once)]
         ends = np.sort(passings.nodes[nearest], axis=1)
@@ -114,7 +116,20 @@ class Configuration:
 
     def near_misses(self, kept: IntArray) -> IntArray:
         """Return the passings to be made none: some, then others that take the least moves."""
-        passings, near = self.ways.passings, self._near
+        passings = self.ways.passings
+        near = np.flatnonzero(passings.angles < NEAR)
+        # Of those along a separatrix the first.
+        near = near[np.unique(self.ways.trace_of(passings[near]), return_index=True)[1]]
+        return self._chosen(kept, near)
+
+    def connections(self, kept: IntArray) -> IntArray:
+        """Return the passings that are none: some, then others that do not follow from them."""
+        near = self._direct
+        return self._chosen(kept, near[self.ways.passings.angles[near] < MET])
+
+    def _chosen(self, kept: IntArray, near: IntArray) -> IntArray:
+        """Return some passings and those others that are equations of their own."""
+        passings = self.ways.passings
         near = np.concatenate([kept, near[~np.isin(near, kept)]])
         if not len(near):
             return near

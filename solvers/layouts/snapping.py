@@ -136,14 +136,17 @@ def snap(
     >>> sorted(sorted(pair) for pair in end.connections.tolist())
     [[0, 1], [0, 3], [1, 2], [2, 3]]
     """
-    first = yield from _configuration(surface, singularities, corners, levels, features)
+    first = yield from configuration(surface, singularities, corners, levels, features)
     yield Progress("looking for near misses", 0.0)
     held = first.between(kept)
     wanted = first.near_misses(held)
     while len(wanted):
         end = yield from _met(first, wanted, corners)
         if end is not None:
-            return end
+            # What was wanted may have become one way over another singularity.
+            reached, defects = end[0].base, end[1]
+            joined = Connected(reached, reached.connections(reached.between(kept)))
+            return _told("valid", 1.0, joined, defects, first.singularities)
         fewer = int(KEPT * len(wanted))
         wanted = wanted[: max(fewer, len(held)) if len(wanted) > len(held) else 0]
     if len(held):
@@ -211,15 +214,15 @@ def join(
     >>> end.connections.tolist(), bool(end.misses.max() < 0.009)
     ([[0, 1]], True)
     """
-    first = yield from _configuration(surface, singularities, corners, levels, features)
+    first = yield from configuration(surface, singularities, corners, levels, features)
     yield Progress("looking for near misses", 0.0)
     end = yield from _met(first, first.between(pairs), corners)
     if end is None:
         raise _not_together()
-    return end
+    return _told("valid", 1.0, *end, first.singularities)
 
 
-def _configuration(
+def configuration(
     surface: TriSurface,
     singularities: Iterable[Singularity],
     corners: Mapping[int, int] | None,
@@ -244,8 +247,8 @@ def _configuration(
 
 def _met(
     first: Configuration, wanted: IntArray, corners: Mapping[int, int] | None
-) -> Generator[Progress, None, Snapped | None]:
-    """Move the singularities until the wanted passings are none; None where they cannot."""
+) -> Generator[Progress, None, tuple[Connected, FloatArray] | None]:
+    """Move the singularities until the wanted passings are none, and verify their defects."""
     start, at = first.singularities, Connected(first, wanted)
     for step, reached in enumerate(at.steps()):
         at = reached
@@ -259,7 +262,7 @@ def _met(
     except Blocked:
         return None
     found = at.followed(end.singularities, np.zeros((len(start), 2)))
-    return None if found is None else _told("valid", 1.0, found, end.defects, start)
+    return None if found is None else (found, end.defects)
 
 
 def _not_together() -> SingularityError:

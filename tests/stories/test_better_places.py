@@ -6,13 +6,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PySide6.QtCore import QPointF, Qt
 
 from crossview.cases.model import Builtin, Case, PlacedSingularity
 from crossview.session.state import SessionState
-from crossview.view.colors import WAITING
+from crossview.view.colors import NEAR_MISS, WAITING
 from crossview.workflow.coarseness import Coarseness
+from crossview.workflow.configurations import complete, make_valid
+from crossview.workflow.problem import Problem
 from solvers.fields import prepare
 from solvers.layouts.near_misses import SeparatrixWays
+from solvers.progress import run
 from solvers.surface import FloatArray
 from tests.windowing import Hand
 
@@ -210,3 +214,58 @@ def test_where_none_can_be_merged_simplify_is_not_offered(hand: Hand) -> None:
     assert (panel.most.minimum(), panel.most.value(), panel.most.maximum()) == (8, 8, 9)
     hand.window.session.edits.toggle_lock(8, 9)
     assert not panel.simplify.isEnabled()
+
+
+def middle_of(hand: Hand, number: int) -> QPointF:
+    """A place in the viewport halfway along a near miss."""
+    found = hand.state.near_misses
+    points = found.points[found.offsets[number] : found.offsets[number + 1]]
+    return hand.place(points[len(points) // 2])
+
+
+def test_a_click_on_a_near_miss_makes_it_a_connection(hand: Hand, off: Path) -> None:
+    found = hand.state.near_misses
+    pairs = [tuple(sorted(pair)) for pair in found.pairs.tolist()]
+    assert sorted(pairs) == [(0, 1), (0, 3), (1, 2), (2, 3)]
+    place, before = middle_of(hand, pairs.index((0, 1))), hand.state.document
+    assert hand.shows(NEAR_MISS, place, 12, line=True)
+    hand.move(place)
+    assert hand.canvas.toolTip() == "Nearly joins singularities 1 and 2: a click does"
+    hand.click(place)
+    hand.wait(lambda: hand.state.solved and hand.state.document is not before)
+    assert hand.state.document.connections == ((0, 1),)
+    assert hand.state.undo_name == "connect singularities 1 and 2"
+    assert misses(hand).max() < 0.5
+    left = [sorted(pair) for pair in hand.state.near_misses.pairs.tolist()]
+    assert [0, 1] not in left
+    hand.trigger("undo")
+    hand.wait(lambda: hand.state.solved)
+    assert hand.state.document is before
+
+
+def test_near_misses_come_and_go_with_the_guide_and_a_drag(hand: Hand, off: Path) -> None:
+    place = middle_of(hand, 0)
+    start = hand.place_of(0)
+    hand.drag(start, hand.place((0.45, 0.05, 0.0)))
+    hand.wait()
+    assert hand.state.near_misses is None
+    hand.key(Qt.Key.Key_Escape)
+    hand.wait()
+    assert hand.state.near_misses is not None
+    hand.trigger("layer-guide")
+    assert hand.state.near_misses is None
+    before = hand.state.document
+    hand.click(place)
+    hand.wait()
+    assert hand.state.document is before
+
+
+def test_each_condition_has_its_row_from_the_start(hand: Hand, tmp_path: Path) -> None:
+    made = Builtin("plate_with_holes", {"holes": 3, "edge_length": 0.15})
+    placed = run(make_valid(run(complete(Problem.from_case(Case(made))))))[0]
+    path = tmp_path / "plate.json"
+    placed.to_case(made).save(path)
+    hand.open(path)
+    rows = hand.window.validity_panel.rows
+    assert len(rows) == 3
+    assert not rows[0].visibleRegion().isEmpty()

@@ -175,6 +175,7 @@ class ValidityPanel(QWidget):
             )
             row.clicked.connect(lambda number=number: self._session.pointer.toggle_pin(number))
             self._row_layout.insertWidget(number, row)
+            row.show()  # else it has no height until events are dealt with
             self.rows.append(row)
         # no higher than its rows, so that the buttons stand below what they mend
         self._scroll.setMaximumHeight(self._list.sizeHint().height())

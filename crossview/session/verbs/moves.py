@@ -16,6 +16,7 @@ from crossview.session.verbs.solving import STARTING
 from crossview.session.waypoints import (
     NATURAL_LABELS,
     Waypoint,
+    connect,
     improve_sizes,
     improved_to,
     merge_to_fewer,
@@ -31,6 +32,8 @@ from solvers.progress import Progress, relayed
 from solvers.validity import Improved
 
 T = TypeVar("T")
+
+Joining = Generator[Progress, None, tuple[Command, Snapped]]
 
 
 class Moves(VerbGroup):
@@ -81,7 +84,14 @@ class Moves(VerbGroup):
 
     def snap(self) -> None:
         """Move the unlocked singularities until separatrices meet what they nearly meet."""
-        document = self._state.document
+        self._join(snap_separatrices)
+
+    def connect(self, pair: tuple[int, int]) -> None:
+        """Move the unlocked singularities until a separatrix joins two of them."""
+        self._join(partial(connect, pair=pair))
+
+    def _join(self, way: Callable[..., Joining]) -> None:
+        document, base = self._state.document, self._state.base
         if document is None:
             return
 
@@ -98,7 +108,7 @@ class Moves(VerbGroup):
                 f"which moved by up to {farthest:.3g}"
             )
 
-        self._run(partial(snap_separatrices, document, self._state.base), done, self._say_unchanged)
+        self._run(partial(way, document, base), done, self._say_unchanged)
 
     def let_connections_go(self) -> None:
         """Keep none of the selected singularities joined; without any selected, none at all."""
