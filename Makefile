@@ -3,8 +3,8 @@
 # make docs   the documentation, into build/docs
 # make bench  the performance figures beside what they are to be; LARGE=--large measures the largest sizes too (minutes)
 # make table  the table of docs/anisotropic.md (minutes); CROSSVIEW_DATA names a folder of surfaces
-# make study  100 random configurations made valid, the anticube from random starts: the tables of
-#             docs/make_valid.md and docs/natural.md (minutes)
+# make study  100 random configurations made valid, plates improved, scans simplified, the anticube from random starts:
+#             the tables of docs/make_valid.md and docs/natural.md (minutes); CROSSVIEW_DATA names a folder of surfaces
 # make maps   how many surfaces get their map: the tables of docs/maps.md (an hour); CROSSVIEW_DATA names a folder
 # make screenshots  the window in twelve situations, and all on one sheet: build/screenshots
 # make keys   the table of case keys in README.md
@@ -55,6 +55,7 @@ table:
 study:
 	@$(MAKE) --no-print-directory $(VENV)/installed
 	$(VENV)/bin/python -m benchmarks.make_valid docs/make_valid.md
+	$(VENV)/bin/python -m benchmarks.better_places docs/make_valid.md
 	$(VENV)/bin/python -m benchmarks.anticube docs/natural.md
 
 maps:
