@@ -9,6 +9,7 @@ import pytest
 from PySide6.QtCore import QPointF, Qt
 
 from crossview.cases.model import Builtin, Case, PlacedSingularity
+from crossview.session.commands import ReplaceSingularities
 from crossview.session.state import SessionState
 from crossview.view.colors import NEAR_MISS, WAITING
 from crossview.workflow.coarseness import Coarseness
@@ -269,3 +270,10 @@ def test_each_condition_has_its_row_from_the_start(hand: Hand, tmp_path: Path) -
     rows = hand.window.validity_panel.rows
     assert len(rows) == 3
     assert not rows[0].visibleRegion().isEmpty()
+    hand.window.session.edits.do(
+        ReplaceSingularities(hand.state.singularities, "connect", connections=((0, 1),))
+    )
+    hand.window.resize(960, 500)
+    hand.wait()
+    assert hand.window.height() == 500
+    assert rows[0].visibleRegion().boundingRect() == rows[0].rect()

@@ -179,6 +179,7 @@ class ValidityPanel(QWidget):
             self.rows.append(row)
         # no higher than its rows, so that the buttons stand below what they mend
         self._scroll.setMaximumHeight(self._list.sizeHint().height())
+        self._scroll.setMinimumHeight(self.rows[0].sizeHint().height() if self.rows else 0)
 
 
 def _offers(state: SessionState) -> tuple[int, int] | None:
