@@ -315,7 +315,7 @@ def snap(problem: Problem, *, progress: Watch = None) -> Problem:
     Returns
     -------
     Problem
-        The same with its singularities moved, valid.
+        The same with its singularities moved, valid, and what is joined as its connections.
 
     Raises
     ------

@@ -15,6 +15,8 @@ from solvers.errors import counted
 def snap(case: str, /, *, new: NewCase) -> None:
     """Move unlocked singularities until separatrices meet what they nearly meet, all loops closed.
 
+    What is joined so is kept by further commands: `connections` of the case.
+
     Parameters
     ----------
     case

@@ -1,5 +1,6 @@
 """crossview snap: a case whose separatrices meet."""
 
+import json
 import re
 from pathlib import Path
 
@@ -24,6 +25,12 @@ def test_a_plate_gets_fewer_patches(
     assert told is not None
     assert int(told[2]) < int(told[1])
     assert told[3] == str(snapped)
+    joined = json.loads(snapped.read_text())["connections"]
+    assert len(joined) > 1
+    for command in ("improve", "make-valid", "snap"):
+        after = tmp_path / f"{command}.json"
+        assert crossview(command, snapped, "-o", after).status == 0
+        assert json.loads(after.read_text())["connections"] == joined
 
 
 def test_where_nothing_may_move_nothing_is_written(
