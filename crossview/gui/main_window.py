@@ -137,6 +137,7 @@ class MainWindow(QMainWindow):
         self.mouse.hovered.connect(self.status.show_hover)
         self.viewport.frame_drawn.connect(self.status.show_frame)
         self.viewport.limits_drawn.connect(self.layers_panel.show_limits)
+        self.export_panel.titled.connect(self.session.edits.change_title)
         self.centre.empty.chosen.connect(self.files.open)
         self.centre.empty.open_wanted.connect(self.files.ask_open)
         self.centre.empty.tour_wanted.connect(self.start_tour)
@@ -268,6 +269,7 @@ class MainWindow(QMainWindow):
             self.layers_panel,
             self.convergence_panel,
             self.quads_panel,
+            self.export_panel,
             self.method_box,
             self.solve_button,
             self.status,

@@ -240,6 +240,18 @@ class ChooseMethod:
 
 
 @dataclass(frozen=True)
+class ChangeTitle:
+    """Say something else about the configuration."""
+
+    title: str
+    name: str = "change the title"
+
+    def apply(self, document: Document) -> Document:
+        """Return the document with the title."""
+        return document.with_title(self.title)
+
+
+@dataclass(frozen=True)
 class MarkFeatures:
     """Choose other feature edges."""
 

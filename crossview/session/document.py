@@ -107,6 +107,11 @@ class Document:
         problem = replace(self.problem, singularities=tuple(singularities), connections=connections)
         return replace(self, problem=problem)
 
+    def with_title(self, title: str) -> Document:
+        """Return the same document with a title that is of its configuration."""
+        source = replace(self.source, title=title)
+        return replace(self, source=source, described=self.problem)
+
     def with_corners(self, corners: Mapping[int, int]) -> Document:
         """Return the same document with other corners."""
         return replace(self, problem=replace(self.problem, corners=corners), corners=corners)

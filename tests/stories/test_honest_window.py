@@ -231,6 +231,26 @@ def test_what_a_title_says_ends_with_the_first_edit(hand: Hand) -> None:
     assert scene_view(hand.state).title == title
 
 
+def test_another_title_can_be_typed_and_is_of_the_configuration(hand: Hand) -> None:
+    hand.open("annulus-near")
+    title = hand.state.document.title
+    hand.window.session.edits.step_valence(1, 0)
+    hand.wait()
+    hand.window.docks["Export"].raise_()
+    box = hand.window.export_panel.title
+    assert box.text() == f"{title}, edited"
+    box.setText("")
+    QTest.keyClicks(box, "A 5 beside three 3")
+    QTest.keyClick(box, Qt.Key.Key_Return)
+    hand.wait()
+    assert scene_view(hand.state).title == "A 5 beside three 3"
+    assert figure_view(hand.state, False).title == "A 5 beside three 3"
+    assert hand.state.document.to_case().title == "A 5 beside three 3"
+    assert hand.state.undo_name == "change the title"
+    hand.trigger("undo")
+    assert box.text() == f"{title}, edited"
+
+
 def test_undo_shows_the_field_of_before_at_once(hand: Hand) -> None:
     hand.open("sphere-cube")
     before = hand.state.field

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import (
     QFormLayout,
     QHBoxLayout,
     QLabel,
+    QLineEdit,
     QPushButton,
     QScrollArea,
     QSizePolicy,
@@ -21,7 +22,11 @@ from crossview.export.raster import LONGEST_SIDE, SHORTEST_SIDE
 from crossview.gui.figure import INCH, FigureSettings
 from crossview.gui.icons import put_icon
 from crossview.gui.panels.scrolling import scrolled
+from crossview.session.state import SessionState
 from crossview.view.texts import grouped
+
+LONGEST_TITLE = 200
+"""Of letters. Chosen."""
 
 LEAST_PREVIEW = QSize(80, 48)
 """Size of the preview at least, in pixels. Chosen."""
@@ -35,10 +40,17 @@ class ExportPanel(QScrollArea):
 
     changed = Signal()
     """The settings are others now, or the room for the preview is."""
+    titled = Signal(str)
+    """Another title was typed."""
 
     def __init__(self, export: QAction, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         default = FigureSettings()
+        self.title = QLineEdit()
+        self.title.setAccessibleName("Title of the figure")
+        self.title.setMaxLength(LONGEST_TITLE)
+        self.title.setEnabled(False)
+        self.title.editingFinished.connect(lambda: self.titled.emit(self.title.text().strip()))
         self.width_box = _pixels(default.size[0])
         self.height_box = _pixels(default.size[1])
         self.scale_box = _box(1, 8, default.scale)
@@ -90,6 +102,7 @@ class ExportPanel(QScrollArea):
         fine.addWidget(self.dpi_box, 3)
         form = QFormLayout()
         form.setVerticalSpacing(6)
+        form.addRow("Title", self.title)
         form.addRow("Pixels", pair)
         form.addRow("Paper", paper)
         form.addRow("Scale", fine)
@@ -116,6 +129,13 @@ class ExportPanel(QScrollArea):
         size = (self.width_box.value(), self.height_box.value())
         transparent = self.transparent_box.isChecked()
         return FigureSettings(size, self.scale_box.value(), transparent, self.dpi_box.value())
+
+    def show_state(self, old: SessionState, new: SessionState) -> None:
+        """Follow the window's state."""
+        if old.document is not new.document:
+            self.title.setEnabled(new.document is not None)
+            self.title.setText("" if new.document is None else new.document.title)
+            self.title.setPlaceholderText("" if new.document is None else new.document.name)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Tell that there is other room for a preview."""

@@ -9,6 +9,7 @@ from crossview.session.commands import (
     MAX_VALENCE,
     MIN_VALENCE,
     AddSingularities,
+    ChangeTitle,
     ChangeValence,
     ChooseMethod,
     Command,
@@ -116,6 +117,12 @@ class Edits:
         document = self._store.state.document
         if document is not None and document.problem.method != method:
             self.do(ChooseMethod(method))
+
+    def change_title(self, title: str) -> None:
+        """Give the configuration another title, which figures and files carry."""
+        document = self._store.state.document
+        if document is not None and document.title != title:
+            self.do(ChangeTitle(title))
 
     def _do_all(self, commands: Sequence[Command], name: str) -> None:
         """Make several changes one step; one alone keeps its name."""
