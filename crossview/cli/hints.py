@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from crossview.workflow.loading import RepairAndChoose
 from solvers.remedies import MakeValid, Remedy, RepairSurface, TakeLargest, UseMethod
 from solvers.singularities import AddMissing
 
@@ -11,6 +12,8 @@ def with_command(remedy: Remedy) -> str:
     match remedy:
         case RepairSurface():
             how = "--repair"
+        case RepairAndChoose():
+            how = "--repair --component largest"
         case TakeLargest():
             how = "--component largest"
         case MakeValid():

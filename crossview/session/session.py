@@ -25,6 +25,7 @@ from crossview.session.verbs.quad_making import QuadMaking
 from crossview.session.verbs.solving import Solving
 from crossview.session.verbs.trials import Trials
 from crossview.view.values import Elements
+from crossview.workflow.loading import RepairAndChoose
 from crossview.workflow.quads import MeshOptions
 from solvers.remedies import MakeValid, Remedy, RepairSurface, TakeLargest
 from solvers.surface import FloatArray, IntArray
@@ -94,6 +95,8 @@ class Session(Store):
         match remedy:
             case RepairSurface() if isinstance(tried, Opening):
                 self.open(replace(tried, repair=True))
+            case RepairAndChoose() if isinstance(tried, Opening):
+                self.open(replace(tried, repair=True, component="largest"))
             case TakeLargest() if isinstance(tried, Opening):
                 self.open(replace(tried, component="largest"))
             case ShowWhere(elements=elements) if isinstance(tried, Opening):

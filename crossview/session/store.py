@@ -13,6 +13,7 @@ from crossview.session.message import Message, ShowWhere
 from crossview.session.opening import Opening
 from crossview.session.state import SessionState
 from crossview.view.values import Elements
+from crossview.workflow.loading import RepairAndChoose
 from crossview.workflow.quads import MeshOptions
 from solvers.errors import CrossviewError, SurfaceError, printable, shortened
 from solvers.remedies import Remedy, RepairSurface, TakeLargest, UseMethod
@@ -121,7 +122,7 @@ def offered(
         match remedy:
             case RepairSurface():
                 useful = isinstance(tried, Opening) and not tried.repair
-            case TakeLargest():
+            case TakeLargest() | RepairAndChoose():
                 useful = isinstance(tried, Opening)
             case UseMethod(method=other):
                 useful = other != method

@@ -2,11 +2,24 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from crossview.cases.model import Builtin, Case
 from crossview.io import RawSurface, read_surface
 from solvers.errors import SurfaceError
 from solvers.primitives import BUILTIN
+from solvers.remedies import Remedy, RepairSurface, TakeLargest
 from solvers.repair import Repaired, repair, repair_each
+
+
+@dataclass(frozen=True)
+class RepairAndChoose(Remedy):
+    """Repair a surface that then is in pieces, and take the largest."""
+
+    @property
+    def label(self) -> str:
+        """What a button says that does it."""
+        return "Repair, use the largest piece"
 
 
 def load_surfaces(case: Case) -> tuple[Repaired, ...]:
@@ -53,5 +66,24 @@ def mended(raw: RawSurface, case: Case) -> tuple[Repaired, ...]:
             )
     except SurfaceError as error:
         error.locate(str(case.surface))
+        if chosen is None and not aggressive:
+            error.remedies = _lasting(error.remedies, raw)
         raise
     return tuple(Repaired(piece.surface, (*raw.notes, *piece.notes)) for piece in pieces)
+
+
+def _lasting(remedies: tuple[Remedy, ...], raw: RawSurface) -> tuple[Remedy, ...]:
+    """Return remedies after which nothing else is wrong: a repair may leave several pieces."""
+    if not any(isinstance(remedy, RepairSurface) for remedy in remedies):
+        return remedies
+    try:
+        repair(raw.vertices, raw.faces, merge=raw.merge, aggressive=True)
+    except SurfaceError as left:
+        if any(isinstance(remedy, TakeLargest) for remedy in left.remedies):
+            return tuple(
+                RepairAndChoose(f"{remedy.words}, and choose the largest piece")
+                if isinstance(remedy, RepairSurface)
+                else remedy
+                for remedy in remedies
+            )
+    return remedies

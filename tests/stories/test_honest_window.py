@@ -389,4 +389,10 @@ def test_a_message_says_what_first_then_where_and_has_a_button(hand: Hand, tmp_p
     assert bar.text.text() == "1 non-manifold edge with more than two triangles"
     assert bar.below.text().startswith("fin.obj, edges 0-1: repair")
     assert str(tmp_path) not in bar.below.text()
-    assert [button.text() for button in bar.action_buttons] == ["Repair", "Show where"]
+    # cut apart, it is in two pieces: one button does all that is needed
+    said = [button.text() for button in bar.action_buttons]
+    assert said == ["Repair, use the largest piece", "Show where"]
+    bar.action_buttons[0].click()
+    hand.wait(lambda: hand.state.document is not None)
+    assert hand.state.message is None
+    assert hand.state.document.surface.n_faces == 3

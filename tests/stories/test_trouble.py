@@ -93,7 +93,8 @@ def test_where_the_trouble_is_can_be_seen(hand: Hand, tmp_path: Path) -> None:
     path.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.5 1\nf 1 2 3\nf 1 3 4\nf 1 3 5\n")
     hand.open(str(path))
     bar = hand.window.centre.message_bar
-    assert [button.text() for button in bar.action_buttons] == ["Repair", "Show where"]
+    said = [button.text() for button in bar.action_buttons]
+    assert said == ["Repair, use the largest piece", "Show where"]  # cut apart, it is in two
     bar.action_buttons[1].click()
     hand.wait(lambda: hand.state.faulty is not None)
     assert hand.window.viewport.isVisible()
