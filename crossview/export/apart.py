@@ -23,7 +23,8 @@ ARGUMENTS = ("-P", "-c", "from crossview.export.apart import main; main()")
 
 def packed(view: SceneView, path: Path, **settings: Any) -> bytes:
     """Return what to send; parameters as of `figures.render_view`."""
-    plain = replace(view, layers=dict(view.layers))  # views of mappings cannot be sent
+    # views of mappings cannot be sent, and what is made of the triangles is large
+    plain = replace(view, layers=dict(view.layers), triangles=None)
     return pickle.dumps((plain, os.fspath(path), settings))
 
 

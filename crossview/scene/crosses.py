@@ -9,12 +9,9 @@ from crossview.scene.actors import MeshActor
 from crossview.scene.watch import Watch
 from crossview.view.colors import CROSS
 from crossview.view.geometry import FloatArray, Triangles
-from crossview.view.sampling import spread_sites
+from crossview.view.sampling import usual_sites
 from crossview.view.scene_view import SceneView
 from crossview.view.style import WIDTH
-
-_NUMBER, _NUMBER_PLANAR = 2200, 1400
-"""How many crosses there are at density 1; of a planar surface all are seen at once. Chosen."""
 
 _ARM = 0.38
 """Half the length of a middling cross, in distances between crosses. Chosen: they do not touch."""
@@ -71,8 +68,7 @@ class CrossGlyphs:
     """
 
     def __init__(self, triangles: Triangles, density: float) -> None:
-        number = density * (_NUMBER if triangles.plane_normal is None else _NUMBER_PLANAR)
-        self.sites = spread_sites(triangles, number)
+        self.sites = usual_sites(triangles, density)
         self._corners = triangles.faces[self.sites.faces]
         self._longest = 0.95 * self.sites.free
 

@@ -136,8 +136,8 @@ class Scene:
         """
         if not self._watch.changed("view", *(getattr(view, f.name) for f in fields(view))):
             return False
-        if self._watch.changed("surface", view.points, view.faces):
-            self._triangles = _drawable(view.points, view.faces)
+        if self._watch.changed("surface", view.points, view.faces, view.triangles):
+            self._triangles = view.triangles or _drawable(view.points, view.faces)
         if self._watch.changed("background", view.background):
             self._plotter.renderer.SetBackground(*rgb(THEMES[view.background].background))
         for layer in self._layers:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from crossview.session.live import LiveBase, with_directions
 from crossview.session.shown import Solved
+from crossview.view.meshes import triangles_of
 from crossview.workflow.pipeline import Pipeline, Solution
 from crossview.workflow.problem import Problem
 from solvers.fields import AlignedField, CrossField, FieldStep, IntegratedField
@@ -76,6 +77,7 @@ class MethodSolver:
     def _ready(self, solution: Solution) -> Solved:
         with_directions(solution.field)
         base, start = LiveBase.from_solution(solution), None
+        triangles_of(base.surface)  # drawn at once then
         if solution.integrated is not None:
             start = self._start_of(solution.integrated.aligned)
         return Solved(solution, start, base)

@@ -9,6 +9,7 @@ from pathlib import Path
 from crossview.cases.gallery import find_case
 from crossview.io import read_surface
 from crossview.session.document import Document
+from crossview.view.meshes import triangles_of
 from solvers.progress import Progress
 from solvers.repair import share_vertices
 from solvers.surface import FloatArray, IntArray
@@ -60,6 +61,7 @@ def open_target(opening: Opening) -> Generator[Progress, None, Document]:
     # cached by the surface: what the window's panels show needs no work of the GUI thread
     surface = document.surface
     _ = surface.triangle_quality, surface.genus, surface.boundary_loops, surface.area
+    triangles_of(surface)
     return document
 
 

@@ -20,6 +20,7 @@ from crossview.view.meshes import (
     patches_of,
     quads_of,
     t_junctions_of,
+    triangles_of,
     worst_of,
 )
 from crossview.view.scalars import SURFACE_SCALARS
@@ -72,6 +73,7 @@ def scene_view(state: SessionState, held: Ranges = NO_RANGES) -> SceneView:
             view = replace(view, error_density=start.error_density)
     return replace(
         _with_features(view, state),
+        triangles=triangles_of(surface),
         singularities=markers,
         preview=_preview(state, surface),
         loop=_loop(state),

@@ -12,10 +12,13 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from crossview.view.geometry import Triangles
+from crossview.view.sampling import usual_sites
 from crossview.view.values import FloatArray, Polylines, Quads
 from crossview.workflow.spots import POOR, worst_quads
 from solvers.layouts import NearMisses, QuadLayout, Separatrices
 from solvers.quads import QuadMesh
+from solvers.surface import TriSurface
 
 Source = TypeVar("Source")
 Drawing = TypeVar("Drawing")
@@ -32,6 +35,14 @@ def _once(draw: Callable[[Source], Drawing]) -> Callable[[Source], Drawing]:
         return drawn[source]
 
     return kept
+
+
+@_once
+def triangles_of(surface: TriSurface) -> Triangles:
+    """Return the triangles of a surface as they are drawn, with what that needs of them."""
+    triangles = Triangles(surface.vertices, surface.faces)
+    _ = triangles.outward, triangles.boundary_edges, usual_sites(triangles)
+    return triangles
 
 
 @_once

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,9 @@ import numpy.typing as npt
 from scipy.spatial import cKDTree
 
 from crossview.view.geometry import FloatArray, IntArray, Triangles
+
+USUAL, USUAL_PLANAR = 2200, 1400
+"""How many crosses there are at density 1; of a planar surface all are seen at once. Chosen."""
 
 _CANDIDATES = 8.0
 """Candidates per chosen site.
@@ -62,6 +66,13 @@ class Sites:
     spacing: float
 
 
+def usual_sites(triangles: Triangles, density: float = 1.0) -> Sites:
+    """Return places for crosses, as many as suit a picture times `density`."""
+    number = USUAL if triangles.plane_normal is None else USUAL_PLANAR
+    return spread_sites(triangles, density * number)
+
+
+@lru_cache(maxsize=2)
 def spread_sites(triangles: Triangles, count: float) -> Sites:
     """Choose about `count` places, no two near each other, none leaving a hole.
 

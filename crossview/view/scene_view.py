@@ -11,6 +11,7 @@ from crossview.cases.compounds import Either, ListOf
 from crossview.cases.records import documented, key
 from crossview.cases.scalars import Flag, Number, Word
 from crossview.view.colors import COLOR_MAPS
+from crossview.view.geometry import Triangles
 from crossview.view.values import (
     Elements,
     FloatArray,
@@ -200,6 +201,8 @@ class SceneView:
         Vertices of the surface; need not form a valid `TriSurface`.
     faces : (m, 3) int, optional
         Its triangles.
+    triangles : Triangles, optional
+        The same, where they have been prepared; made of them by default.
     H : (n,) float, optional
         Log of the size at the vertices, of two sizes the mean.
     half_log_aspect : (m, 3) float, optional
@@ -253,6 +256,7 @@ class SceneView:
 
     points: FloatArray | None = None
     faces: IntArray | None = None
+    triangles: Triangles | None = None
     H: FloatArray | None = None
     half_log_aspect: FloatArray | None = None
     error_density: FloatArray | None = None
