@@ -10,7 +10,9 @@ from crossview.scene.camera import camera_for, read_camera
 from crossview.scene.scene import room_for
 from crossview.view.geometry import Triangles
 from crossview.view.scalars import (
+    Beyond,
     Limits,
+    beyond,
     quality_limits,
     scalar_limits,
     scalar_values,
@@ -29,8 +31,8 @@ def with_one_range(views: Sequence[SceneView]) -> list[SceneView]:
     for view in views:
         name, own = shown_scalar(view), shown_limits(view)
         if own is not None and name != "theta":  # an angle has one range anyway
-            low, high = limits.get(name, own)
-            limits[name] = (min(low, own[0]), max(high, own[1]))
+            low, high = limits.get(name, own[0])
+            limits[name] = (min(low, own[0][0]), max(high, own[0][1]))
     return [
         view.with_layer(name, value_range=limits[name])
         if (name := shown_scalar(view)) in limits
@@ -39,18 +41,26 @@ def with_one_range(views: Sequence[SceneView]) -> list[SceneView]:
     ]
 
 
-def shown_limits(view: SceneView) -> Limits | None:
-    """Return the limits of the colours of what a view shows; None where they show no scalar."""
+def shown_limits(view: SceneView) -> tuple[Limits, Beyond] | None:
+    """Return the limits of the colours of what a view shows, and whether values are beyond.
+
+    None where they show no scalar.
+    """
     name = shown_scalar(view)
     if name == "quads":
         mesh = view.quads
-        found = None if mesh is None or mesh.quality is None else mesh.quality
-        return None if found is None else quality_limits(view.layer(name), found)
+        if mesh is None or mesh.quality is None:
+            return None
+        limits = quality_limits(view.layer(name), mesh.quality)
+        return limits, beyond(mesh.quality, limits)
     if not name or view.points is None or view.faces is None:
         return None
     triangles = Triangles(view.points, view.faces)
     values = scalar_values(view, name, triangles)
-    return None if values is None else scalar_limits(view, name, triangles, values)
+    if values is None:
+        return None
+    limits = scalar_limits(view, name, triangles, values)
+    return limits, beyond(values, limits)
 
 
 def one_camera(views: Sequence[SceneView], size: tuple[int, int], camera: str | Camera) -> Camera:

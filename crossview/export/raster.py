@@ -17,6 +17,7 @@ from vtkmodules.vtkCommonCore import vtkFloatArray
 from crossview.scene import Camera, Scene, SceneView, ensure_rendering
 from crossview.scene.camera import rows
 from crossview.view.geometry import FloatArray
+from crossview.view.scalars import Beyond
 from solvers.errors import CrossviewError
 from solvers.number_checks import real_numbers
 
@@ -130,6 +131,8 @@ class Seen:
         Of the surface: 0 near to 1 far and where nothing is; the bottom row first.
     limits : (float, float)
         Of the colours of the scalar shown.
+    beyond : (bool, bool)
+        Whether it is below them somewhere, and whether above.
     """
 
     size: tuple[int, int]
@@ -137,6 +140,7 @@ class Seen:
     turn: FloatArray
     depth: npt.NDArray[np.float32]
     limits: tuple[float, float]
+    beyond: Beyond
 
     def project(self, points: FloatArray) -> FloatArray:
         """Return (..., 3): pixels to the right and up from the bottom left, and depth."""
@@ -171,7 +175,7 @@ def seen(view: SceneView, size: tuple[int, int], camera: str | Camera) -> Seen:
         seen_with = plotter.renderer.GetActiveCamera()
         matrix = seen_with.GetCompositeProjectionTransformMatrix(size[0] / size[1], -1.0, 1.0)
         turn = rows(seen_with.GetViewTransformMatrix())[:3, :3]
-        return Seen(size, rows(matrix), turn, depth, scene.limits)
+        return Seen(size, rows(matrix), turn, depth, scene.limits, scene.beyond)
 
 
 def check_size(size: tuple[int, int], scale: float) -> tuple[int, int]:

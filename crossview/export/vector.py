@@ -97,7 +97,7 @@ def _draw(
         draw_in_space(sheet, view, triangles)
     _draw_axes(sheet, view, eye)
     _write_legend(sheet, view, size[1] / pixel_ratio(size))
-    _draw_bar(sheet, view, size[0] / pixel_ratio(size), eye.limits)
+    _draw_bar(sheet, view, size[0] / pixel_ratio(size), eye)
 
 
 def _only_surface(view: SceneView) -> SceneView:
@@ -140,7 +140,7 @@ def _write_legend(sheet: Sheet, view: SceneView, top: float) -> None:
             sheet.dot((x, legend.FOOT), legend.DISC, valence_color(valence))
 
 
-def _draw_bar(sheet: Sheet, view: SceneView, width: float, limits: tuple[float, float]) -> None:
+def _draw_bar(sheet: Sheet, view: SceneView, width: float, eye: Seen) -> None:
     shown = shown_scalar(view)
     if not shown:
         return
@@ -151,7 +151,7 @@ def _draw_bar(sheet: Sheet, view: SceneView, width: float, limits: tuple[float, 
     name = settings.color_map or SCALARS[shown].color_map
     colors = color_table(name, settings.opacity, legend.BAR_COLORS) / 255.0
     sheet.column(left, right, levels, colors)
-    words = bar_texts(shown, limits)
+    words = bar_texts(shown, eye.limits, eye.beyond)
     for word, y in zip(words, np.linspace(levels[0], levels[-1], len(words)), strict=True):
         sheet.word(word, (left - legend.BAR_GAP, float(y)), ink, "right", legend.TEXT_SIZE)
     above = (right, float(levels[-1]) + legend.BAR_TITLE)

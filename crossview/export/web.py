@@ -276,10 +276,11 @@ def _bar(view: SceneView) -> dict[str, Any] | None:
     settings, limits = view.layer(shown), shown_limits(view)
     if limits is None:
         return None
+    texts = bar_texts(shown, *limits)
     name = settings.color_map or SCALARS[shown].color_map
     table = color_table(name, settings.opacity, BAR_COLORS)
     colors = [f"rgb({red}, {green}, {blue})" for red, green, blue, _ in table.tolist()]
-    return {"title": SCALARS[shown].title, "colors": colors, "texts": bar_texts(shown, limits)}
+    return {"title": SCALARS[shown].title, "colors": colors, "texts": texts}
 
 
 def _bytes(parts: FloatArray) -> Bytes:

@@ -9,7 +9,7 @@ from crossview.scene.overlay import Label, Patches, discs
 from crossview.scene.watch import Watch
 from crossview.view.colors import THEMES, bytes_of, color_table, valence_color
 from crossview.view.geometry import IntArray, Triangles
-from crossview.view.scalars import SCALARS, bar_texts, shown_scalar
+from crossview.view.scalars import SCALARS, Beyond, bar_texts, shown_scalar
 from crossview.view.scene_view import SceneView
 
 MARGIN = 18.0
@@ -120,15 +120,16 @@ class ColorBarLayer:
         ]
         self._watch = Watch()
 
-    def show_range(self, view: SceneView, limits: tuple[float, float]) -> None:
-        """Apply what changed; `limits` are those in use."""
+    def show_range(self, view: SceneView, limits: tuple[float, float], beyond: Beyond) -> None:
+        """Apply what changed; `limits` are those in use, `beyond` where values are."""
         shown = shown_scalar(view)
         settings = view.layer(shown or "H")
         name = settings.color_map or SCALARS[shown or "H"].color_map
-        if not self._watch.changed("bar", shown, name, settings.opacity, limits, view.background):
+        seen = (shown, name, settings.opacity, limits, beyond, view.background)
+        if not self._watch.changed("bar", *seen):
             return
         color = THEMES[view.background].text
-        texts = bar_texts(shown, limits) if shown else [""] * 5
+        texts = bar_texts(shown, limits, beyond) if shown else [""] * 5
         self._title.show(
             SCALARS[shown].title if shown else "", self._at(1.0, BAR_HEIGHT + BAR_TITLE), color
         )

@@ -40,7 +40,7 @@ from crossview.scene.surface import SurfaceLayer
 from crossview.scene.watch import Watch
 from crossview.view.colors import THEMES, rgb
 from crossview.view.geometry import FloatArray, IntArray, Triangles
-from crossview.view.scalars import quality_limits, shown_scalar
+from crossview.view.scalars import Beyond, beyond, quality_limits, shown_scalar
 from crossview.view.scene_view import SceneView
 from crossview.view.values import Plane
 
@@ -126,6 +126,14 @@ class Scene:
             return quality_limits(self._view.layer("quads"), quads.quality)
         return self._surface.limits
 
+    @property
+    def beyond(self) -> Beyond:
+        """Whether the scalar shown is below its limits somewhere, and whether above."""
+        quads = self._view.quads
+        if shown_scalar(self._view) == "quads" and quads and quads.quality is not None:
+            return beyond(quads.quality, self.limits)
+        return self._surface.beyond
+
     def show(self, view: SceneView) -> bool:
         """Show a view: touch only what changed since the last one.
 
@@ -146,7 +154,7 @@ class Scene:
             self._clip(view.clip)
         self._view = view
         if self._bar is not None:
-            self._bar.show_range(view, self.limits)
+            self._bar.show_range(view, self.limits, self.beyond)
         return True
 
     @property

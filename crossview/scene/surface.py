@@ -14,7 +14,16 @@ from crossview.scene.actors import MeshActor
 from crossview.scene.watch import Watch
 from crossview.view.colors import SURFACE, color_table, rgb
 from crossview.view.geometry import FloatArray, IntArray, Triangles
-from crossview.view.scalars import SCALARS, Limits, scalar_limits, scalar_values, shown_scalar
+from crossview.view.scalars import (
+    SCALARS,
+    WITHIN,
+    Beyond,
+    Limits,
+    beyond,
+    scalar_limits,
+    scalar_values,
+    shown_scalar,
+)
 from crossview.view.scene_view import SceneView
 from crossview.view.style import WIDTH
 
@@ -44,6 +53,7 @@ class SurfaceLayer:
         self._actor.property.SetEdgeColor(*rgb(_EDGE_COLOR))
         self.h_range: Limits = (-1.0, 1.0)
         self.limits: Limits = (-1.0, 1.0)
+        self.beyond: Beyond = WITHIN
 
     def show(self, view: SceneView, triangles: Triangles | None) -> None:
         """Apply what changed."""
@@ -96,6 +106,7 @@ class SurfaceLayer:
         if values is None:
             return
         self.limits = scalar_limits(view, shown, triangles, values)
+        self.beyond = beyond(values, self.limits)
         if shown == "H":
             self.h_range = self.limits
         cells = SCALARS[shown].cells

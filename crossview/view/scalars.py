@@ -12,6 +12,15 @@ from crossview.view.scene_view import LayerSettings, SceneView
 
 Limits = tuple[float, float]
 
+Beyond = tuple[bool, bool]
+"""Whether values are below limits, and whether above."""
+
+WITHIN: Beyond = (False, False)
+"""None are."""
+
+_SLACK = 1e-6
+"""Of the range, that values may be beyond a limit by rounding. Chosen."""
+
 _LEAST_LIMIT = 0.01
 """Least range of colours, in the scalar's unit.
 
@@ -137,10 +146,25 @@ def symmetric_range(values: FloatArray, weights: FloatArray) -> Limits:
     return (-limit, limit)
 
 
-def bar_texts(name: str, limits: Limits) -> list[str]:
-    """Return the five numbers beside the colour bar, from its foot up."""
+def beyond(values: FloatArray, limits: Limits) -> Beyond:
+    """Return whether some values are below limits, and whether some are above."""
+    slack = _SLACK * (limits[1] - limits[0])
+    return bool(values.min() < limits[0] - slack), bool(values.max() > limits[1] + slack)
+
+
+def bar_texts(name: str, limits: Limits, beyond: Beyond = WITHIN) -> list[str]:
+    """Return the five numbers beside the colour bar, from its foot up; `beyond` marks the ends."""
     if name == "theta":
         return ["0°", "", "45°", "", "90°"]
+    texts = _numbers(name, limits)
+    below, above = beyond
+    texts[0] = f"≤ {texts[0]}" if below else texts[0]
+    texts[-1] = f"≥ {texts[-1]}" if above else texts[-1]
+    return texts
+
+
+def _numbers(name: str, limits: Limits) -> list[str]:
+    """Return the five numbers beside the colour bar."""
     values = np.linspace(*limits, 5)
     if name == "error":
         whole = [float(value).is_integer() for value in values]

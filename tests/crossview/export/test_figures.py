@@ -152,7 +152,7 @@ def test_figures_side_by_side_have_one_camera_and_one_range(
     whole = np.asarray(Image.open(tmp_path / "both.png").convert("RGB"), float)
     assert whole.shape == (180, 480, 3)
     # the colour bars are the same, though the one alone has another range
-    left, right = whole[60:170, 200:240], whole[60:170, 440:480]
+    left, right = whole[60:170, 228:240], whole[60:170, 468:480]
     assert np.abs(left - right).max() < 2
     drawn = crossview("render", "disk-4", "teaser-c", "-o", tmp_path / "both.svg", *options)
     assert drawn.status == 0

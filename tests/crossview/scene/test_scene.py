@@ -128,6 +128,12 @@ class TestWhatIsSeen:
         low, high = stage.scene.h_range
         assert low == -high
         assert high == pytest.approx(0.8)
+        # that there are deeper ones is told at the foot of the bar
+        assert stage.scene.beyond == (True, False)
+        assert bar_texts("H", (low, high), stage.scene.beyond)[0] == "≤ −0.80"
+        assert bar_texts("H", (low, high), stage.scene.beyond)[-1] == "0.80"
+        stage.scene.show(plate_view(["H"], H=0.4 * PLATE.vertices[:, 0]))
+        assert stage.scene.beyond == (False, False)
 
     def test_crosses_are_drawn_where_the_triangles_are_and_nowhere_else(
         self, stage: Stage, near: Near
