@@ -38,8 +38,12 @@ DARK = {
 }
 """Colours where the platform has no dark ones of its own."""
 
-FAINT = "#6f7682"
+FAINT = "#8b929d"
 """Of text that is disabled, there."""
+
+
+CHECK_BOX = "#aab1bc"
+"""What the frame of a box to tick is drawn darker than, there: else it is not seen."""
 
 
 def apply_theme(theme: str) -> None:
@@ -49,6 +53,10 @@ def apply_theme(theme: str) -> None:
     QApplication.setPalette(QApplication.style().standardPalette())
     if theme != "system" and is_dark() != (theme == "dark"):
         QApplication.setPalette(_dark() if theme == "dark" else QPalette(QColor("#efefef")))
+        if theme == "dark":
+            boxes = _dark()
+            boxes.setColor(Role.Window, QColor(CHECK_BOX))
+            QApplication.setPalette(boxes, "QCheckBox")
 
 
 def is_dark() -> bool:

@@ -7,7 +7,7 @@ import numpy as np
 from PySide6.QtCore import QSettings, Qt
 from PySide6.QtGui import QAccessible, QGuiApplication, QImage
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QAbstractItemView, QApplication, QDialog, QWidget
+from PySide6.QtWidgets import QAbstractItemView, QApplication, QDialog, QToolButton, QWidget
 
 from crossview.gui.docks import TABS
 from crossview.gui.panels import LogPanel
@@ -32,6 +32,16 @@ def reached_by_tab(root: QWidget) -> list[QWidget]:
 
 def name_of(widget: QWidget) -> str:
     return QAccessible.queryAccessibleInterface(widget).text(QAccessible.Text.Name)
+
+
+def lightnesses(widget: QWidget) -> np.ndarray:
+    """How light the pixels of a widget are, (height, width), 0 to 1."""
+    image = widget.grab().toImage()
+    rows = [
+        [image.pixelColor(x, y).lightnessF() for x in range(image.width())]
+        for y in range(image.height())
+    ]
+    return np.array(rows)
 
 
 def bytes_of(image: QImage) -> bytes:
@@ -101,6 +111,12 @@ def test_a_theme_turns_window_icons_and_scene(hand: Hand) -> None:
     dialog.theme.setCurrentIndex(dialog.theme.findData("dark"))
     dark = lightness()
     assert light[0] > 0.8 > 0.5 > dark[0]
+    # words and the frames of boxes are seen on the dark ground
+    panel = window.singularities_panel.findChild(QToolButton)
+    for widget in (panel, window.surface_panel.features.sharp, window.layers_panel.list):
+        assert np.ptp(lightnesses(widget)) > 0.4
+    box = window.surface_panel.features.sharp
+    assert np.ptp(lightnesses(box)[:, :13]) > 0.25  # of the frame alone
     assert len(grounds()) >= 2
     assert max(grounds()) < 0.5
     assert light[1] < 0.3 < 0.7 < dark[1]

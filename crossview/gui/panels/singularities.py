@@ -153,16 +153,15 @@ class SingularitiesPanel(QWidget):
     def _make_add_button(self) -> QToolButton:
         button = QToolButton()
         button.setText("Add…")
-        button.setStyleSheet("QToolButton::menu-indicator { image: none }")  # else below the line
         put_icon(button, "plus")
         button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         button.setAutoRaise(True)
         button.setToolTip("Choose a valence, then click on the surface")
-        button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         menu = QMenu(button)
         for name in ("add-3", "add-5", "add-6", "add-8", "add-any"):
             menu.addAction(self._actions[name])
-        button.setMenu(menu)
+        # not the button's own menu, whose arrow would stand below the word
+        button.clicked.connect(lambda: menu.popup(button.mapToGlobal(button.rect().bottomLeft())))
         return button
 
     def _clicked(self, index: QModelIndex) -> None:
