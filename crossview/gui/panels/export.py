@@ -73,7 +73,8 @@ class ExportPanel(QScrollArea):
             (self.dpi_box, "Pixels per inch"),
         ):
             box.setAccessibleName(name)
-        self.transparent_box = QCheckBox("Transparent background")
+        self.transparent_box = QCheckBox("Transparent")
+        self.transparent_box.setToolTip("No background")
         self.result = QLabel()
         self.result.setForegroundRole(self.palette().ColorRole.PlaceholderText)
         self.preview = QLabel()
@@ -106,8 +107,11 @@ class ExportPanel(QScrollArea):
         form.addRow("Pixels", pair)
         form.addRow("Paper", paper)
         form.addRow("Scale", fine)
-        form.addRow(self.transparent_box)
-        form.addRow(self.result)
+        last = QHBoxLayout()
+        last.addWidget(self.transparent_box)
+        last.addStretch()
+        last.addWidget(self.result)
+        form.addRow(last)
         layout = scrolled(self)
         layout.setContentsMargins(10, 8, 10, 8)
         layout.setSpacing(6)

@@ -242,7 +242,7 @@ def test_info_reports_what_is_wrong_with_a_surface(crossview: Crossview, tmp_pat
     assert "problem: 1 duplicate triangle" in crossview("info", path).out
     # and the command that would solve on it refuses, but can mend it
     ran = crossview("solve", path, "-o", tmp_path / "out")
-    refused(ran, tmp_path, "bad.obj", "duplicate", "(--repair)")
+    refused(ran, tmp_path, "bad.obj", "duplicate", "(--repair --component largest)")
     assert crossview("info", path, "--repair", "--json").json["components"] != []
 
 
