@@ -141,11 +141,14 @@ def test_sizes_before_and_the_worst_quads_after(hand: Hand) -> None:
     panel.sizes.edges.linkActivated.emit("1")
     assert viewport.scene.camera.focus == pytest.approx(expected.at_largest.place)
 
-    # after: the edges that came of it, and the worst quads, with a click to look there
+    # after: a histogram at a glance, the edges that came of it, and the worst quads, with a click to look there
     panel.count_box.setValue(400)
     hand.trigger("mesh")
     hand.wait(lambda: hand.state.made.quads is not None)
     assert not panel.sizes.isVisible()
+    hand.window.resize(1440, 900)
+    QApplication.processEvents()
+    assert panel.histogram.visibleRegion().boundingRect() == panel.histogram.rect()
     quads, worst = hand.state.made.quads, hand.state.made.worst
     assert panel.facts["Edges"].text().startswith(f"{quads.edge_lengths.min():.3g} to ")
     assert f">{worst[0].quality:.2f}</a>" in panel.worst.text()

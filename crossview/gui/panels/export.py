@@ -139,6 +139,7 @@ class ExportPanel(QScrollArea):
         if old.document is not new.document:
             self.title.setEnabled(new.document is not None)
             self.title.setText("" if new.document is None else new.document.title)
+            self.title.setCursorPosition(0)  # the beginning is seen
             self.title.setPlaceholderText("" if new.document is None else new.document.name)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
