@@ -56,7 +56,7 @@ def apply_theme(theme: str) -> None:
         if theme == "dark":
             boxes = _dark()
             boxes.setColor(Role.Window, QColor(CHECK_BOX))
-            QApplication.setPalette(boxes, "QCheckBox")
+            QApplication.setPalette(boxes, "QCheckBox")  # type: ignore[arg-type]  # PySide's stub errs
 
 
 def is_dark() -> bool:

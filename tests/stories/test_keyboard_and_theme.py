@@ -112,8 +112,9 @@ def test_a_theme_turns_window_icons_and_scene(hand: Hand) -> None:
     dark = lightness()
     assert light[0] > 0.8 > 0.5 > dark[0]
     # words and the frames of boxes are seen on the dark ground
-    panel = window.singularities_panel.findChild(QToolButton)
-    for widget in (panel, window.surface_panel.features.sharp, window.layers_panel.list):
+    add = window.singularities_panel.findChild(QToolButton)
+    assert add is not None
+    for widget in (add, window.surface_panel.features.sharp, window.layers_panel.list):
         assert np.ptp(lightnesses(widget)) > 0.4
     box = window.surface_panel.features.sharp
     assert np.ptp(lightnesses(box)[:, :13]) > 0.25  # of the frame alone

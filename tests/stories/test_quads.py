@@ -141,7 +141,7 @@ def test_sizes_before_and_the_worst_quads_after(hand: Hand) -> None:
     panel.sizes.edges.linkActivated.emit("1")
     assert viewport.scene.camera.focus == pytest.approx(expected.at_largest.place)
 
-    # after: a histogram at a glance, the edges that came of it, and the worst quads, with a click to look there
+    # after: a histogram at a glance, the edges that came of it, the worst quads to look at
     panel.count_box.setValue(400)
     hand.trigger("mesh")
     hand.wait(lambda: hand.state.made.quads is not None)
