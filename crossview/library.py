@@ -55,7 +55,7 @@ def read_surface(
     component : int or str, optional
         Of a surface in several pieces: "largest" or a number (0 is the largest).
     repair : bool, optional
-        Also mend what cannot be mended without changing the surface.
+        Also cut the surface apart at non-manifold edges and vertices.
 
     Returns
     -------
@@ -102,7 +102,7 @@ def read(
     component : int or str, optional
         Of a surface in several pieces: "largest" or a number (0 is the largest).
     repair : bool, optional
-        Also mend what cannot be mended without changing the surface.
+        Also cut the surface apart at non-manifold edges and vertices.
 
     Returns
     -------

@@ -140,8 +140,7 @@ class Options:
         default=False,
         metadata=key(
             Flag(),
-            "Also drop degenerate and duplicate triangles, and cut non-manifold edges and "
-            "vertices apart.",
+            "Also cut the surface apart at non-manifold edges and vertices.",
         ),
     )
     turns: tuple[int, ...] | None = field(

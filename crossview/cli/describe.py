@@ -11,7 +11,8 @@ from crossview.cases.model import Builtin, Case
 from crossview.io import RawSurface, read_surface
 from crossview.workflow.loading import load_surfaces, mended
 from crossview.workflow.problem import Problem, problems_on
-from solvers.errors import SurfaceError
+from solvers.errors import CrossviewError, SurfaceError
+from solvers.remedies import RepairSurface
 from solvers.repair import NoComponent, Repaired, share_vertices
 from solvers.singularities import existence, index_budget
 from solvers.surface import problems
@@ -44,7 +45,7 @@ def describe(case: Case) -> dict[str, Any]:
         "vertices": counts[0],
         "faces": counts[1],
         "usable": usable,
-        "problems": [_problem(error) for error in found],
+        "problems": [_problem(error, usable) for error in found],
         "notes": list(pieces[0].notes) if pieces else [],
         "components": [_component(problem) for problem in posed],
     }
@@ -84,9 +85,12 @@ def _same(one: SurfaceError, other: SurfaceError) -> bool:
     return one.kind == other.kind and np.array_equal(one.elements, other.elements)
 
 
-def _problem(error: SurfaceError) -> dict[str, Any]:
+def _problem(error: SurfaceError, usable: str) -> dict[str, Any]:
+    """What is wrong, and what to do about it unless that was done."""
+    done = usable == "yes"
+    to_do = [r for r in error.remedies if not (done and isinstance(r, RepairSurface))]
     return {
-        "message": str(error),
+        "message": str(CrossviewError(error.what, error.where, error.advice, remedies=to_do)),
         "kind": error.kind,
         "elements": error.elements.tolist(),
     }

@@ -46,7 +46,7 @@ class SurfaceOptions:
         Of a surface in several pieces: largest, a number (0 is the largest) or, for info and
         solve, all.
     repair
-        Also mend what cannot be mended without changing the surface.
+        Also cut the surface apart at non-manifold edges and vertices.
     """
 
     component: str | None = None

@@ -26,7 +26,7 @@ class Opening:
     component : str or None
         Which piece to take of a surface in several; None leaves it to the case.
     repair : bool
-        Also mend what cannot be mended without changing the surface.
+        Also cut the surface apart at non-manifold edges and vertices.
     restores : str or None
         Of a copy of unsaved work: what that was opened from.
     """

@@ -50,23 +50,23 @@ def load_surfaces(case: Case) -> tuple[Repaired, ...]:
 
 def mended(raw: RawSurface, case: Case) -> tuple[Repaired, ...]:
     """What was read for a case, as the surface or surfaces it asks for."""
-    chosen, aggressive = case.options.component, case.options.repair
+    chosen, cut_apart = case.options.component, case.options.repair
     try:
         if chosen == "all":
-            pieces = repair_each(raw.vertices, raw.faces, merge=raw.merge, aggressive=aggressive)
+            pieces = repair_each(raw.vertices, raw.faces, merge=raw.merge, cut_apart=cut_apart)
         else:
             pieces = (
                 repair(
                     raw.vertices,
                     raw.faces,
                     merge=raw.merge,
-                    aggressive=aggressive,
+                    cut_apart=cut_apart,
                     component=chosen,
                 ),
             )
     except SurfaceError as error:
         error.locate(str(case.surface))
-        if chosen is None and not aggressive:
+        if chosen is None and not cut_apart:
             error.remedies = _lasting(error.remedies, raw)
         raise
     return tuple(Repaired(piece.surface, (*raw.notes, *piece.notes)) for piece in pieces)
@@ -77,7 +77,7 @@ def _lasting(remedies: tuple[Remedy, ...], raw: RawSurface) -> tuple[Remedy, ...
     if not any(isinstance(remedy, RepairSurface) for remedy in remedies):
         return remedies
     try:
-        repair(raw.vertices, raw.faces, merge=raw.merge, aggressive=True)
+        repair(raw.vertices, raw.faces, merge=raw.merge, cut_apart=True)
     except SurfaceError as left:
         if any(isinstance(remedy, TakeLargest) for remedy in left.remedies):
             return tuple(

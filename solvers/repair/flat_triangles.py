@@ -7,7 +7,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from solvers.errors import counted
+from solvers.errors import SurfaceError, counted
 from solvers.surface.triangulation import BoolArray, FloatArray, IntArray, next_halfedge
 from solvers.surface.validation import HalfedgePairs, degenerate_faces
 
@@ -88,8 +88,21 @@ def mend_flat_triangles(
         The points are those given.
     note : str
         What was done; empty for nothing.
+
+    Raises
+    ------
+    SurfaceError
+        If no triangle has an area.
     """
-    count = int(degenerate_faces(points, triangles).sum())
+    flat_ones = degenerate_faces(points, triangles)
+    if len(triangles) and flat_ones.all():
+        raise SurfaceError(
+            "there are only triangles without area",
+            counted(len(triangles), "triangle"),
+            elements=np.arange(len(triangles)),
+            kind="faces",
+        )
+    count = int(flat_ones.sum())
     for _ in range(ROUNDS):
         flat = np.flatnonzero(degenerate_faces(points, triangles))
         if not len(flat):

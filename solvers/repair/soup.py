@@ -81,14 +81,15 @@ def repair(
     faces: npt.ArrayLike,
     *,
     merge: bool = False,
-    aggressive: bool = False,
+    cut_apart: bool = False,
     component: int | str | None = None,
 ) -> Repaired:
     """Make a surface, changing the arrays where that is safe or asked for.
 
-    Vertices that belong to no triangle are dropped, boundary edges that lie on each other are
-    joined, and triangles are turned to agree with their neighbours, always; a closed surface that
-    had to be turned faces outwards.
+    Always, as it leaves the surface what it is: vertices that belong to no triangle and all but one
+    of triangles with the same corners are dropped, boundary edges that lie on each other are
+    joined, triangles without area are flipped or collapsed, and triangles are turned to agree with
+    their neighbours; a closed surface that had to be turned faces outwards.
 
     Parameters
     ----------
@@ -98,9 +99,8 @@ def repair(
         Corner vertices.
     merge : bool, optional
         Make one vertex of those at the same place, for formats that do not share vertices.
-    aggressive : bool, optional
-        Also mend triangles without area, drop duplicate triangles, and cut the surface apart at
-        non-manifold edges and vertices.
+    cut_apart : bool, optional
+        Whether to cut the surface apart at non-manifold edges and vertices.
     component : int, "largest" or None, optional
         Keep one connected component, numbered from the largest, 0, down.
 
@@ -113,7 +113,7 @@ def repair(
     ------
     SurfaceError
         What still keeps the arrays from being one oriented manifold surface. Its elements are
-        numbered as in the arrays given, unless joined edges, `merge`, `aggressive` or `component`
+        numbered as in the arrays given, unless what was mended, `merge`, `cut_apart` or `component`
         changed them.
 
     Examples
@@ -128,7 +128,7 @@ def repair(
     >>> repaired.surface.n_vertices
     4
     """
-    points, triangles, notes = _mended(vertices, faces, merge, aggressive)
+    points, triangles, notes = _mended(vertices, faces, merge, cut_apart)
     if component is not None:
         triangles, note = _choose(len(points), triangles, component)
         notes += [note] if note else []
@@ -136,7 +136,7 @@ def repair(
 
 
 def repair_each(
-    vertices: npt.ArrayLike, faces: npt.ArrayLike, *, merge: bool = False, aggressive: bool = False
+    vertices: npt.ArrayLike, faces: npt.ArrayLike, *, merge: bool = False, cut_apart: bool = False
 ) -> tuple[Repaired, ...]:
     """Make a surface of every connected component, the largest first.
 
@@ -146,7 +146,7 @@ def repair_each(
         Coordinates.
     faces : (m, 3) array_like of int
         Corner vertices.
-    merge, aggressive : bool, optional
+    merge, cut_apart : bool, optional
         As of `repair`.
 
     Returns
@@ -167,7 +167,7 @@ def repair_each(
     >>> [piece.surface.n_faces for piece in pieces]
     [2, 1]
     """
-    points, triangles, notes = _mended(vertices, faces, merge, aggressive)
+    points, triangles, notes = _mended(vertices, faces, merge, cut_apart)
     of_face = face_components(len(points), triangles)
     return tuple(
         Repaired(_surface(points, triangles[of_face == number]), tuple(notes))
@@ -176,7 +176,7 @@ def repair_each(
 
 
 def _mended(
-    vertices: npt.ArrayLike, faces: npt.ArrayLike, merge: bool, aggressive: bool
+    vertices: npt.ArrayLike, faces: npt.ArrayLike, merge: bool, cut_apart: bool
 ) -> tuple[FloatArray, IntArray, list[str]]:
     """Return the arrays after all repairs but the choice of a component, and notes on them."""
     points, triangles = as_arrays(vertices, faces)
@@ -186,8 +186,8 @@ def _mended(
         raise problem
     notes = [f"dropped {counted(int(unused.sum()), 'unused vertex')}"] if unused.any() else []
     steps: list[Step] = [partial(share_vertices, merge=merge)]
-    steps += [mend_flat_triangles, _drop_duplicates] if aggressive else []
-    steps += [orient, _cut_apart] if aggressive else [orient]
+    steps += [mend_flat_triangles, _drop_duplicates, orient]
+    steps += [_cut_apart] if cut_apart else []
     for step in steps:
         points, triangles, note = step(points, triangles)
         notes += [note] if note else []

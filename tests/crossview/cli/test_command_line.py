@@ -242,7 +242,7 @@ def test_info_reports_what_is_wrong_with_a_surface(crossview: Crossview, tmp_pat
     assert "problem: 1 duplicate triangle" in crossview("info", path).out
     # and the command that would solve on it refuses, but can mend it
     ran = crossview("solve", path, "-o", tmp_path / "out")
-    refused(ran, tmp_path, "bad.obj", "duplicate", "(--repair --component largest)")
+    refused(ran, tmp_path, "bad.obj", "non-manifold edge", "(--repair --component largest)")
     assert crossview("info", path, "--repair", "--json").json["components"] != []
 
 
@@ -250,14 +250,18 @@ def test_info_tells_scripts_whether_a_surface_is_usable(
     crossview: Crossview, two_pieces: Path, tmp_path: Path
 ) -> None:
     """0: as it is, each of its components; 1: with --repair; 2: not."""
-    vertices = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
-    doubled = write_obj(tmp_path / "doubled.obj", vertices, [(0, 1, 2), (0, 1, 2)])
+    vertices = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1)]
+    doubled = write_obj(tmp_path / "doubled.obj", vertices, [(0, 1, 2), (0, 1, 2), (0, 2, 2)])
+    pages = write_obj(tmp_path / "pages.obj", vertices, [(0, 1, 2), (1, 0, 3), (0, 1, 4)])
     flat = write_obj(tmp_path / "flat.obj", [(0, 0, 0), (1, 0, 0), (2, 0, 0)], [(0, 1, 2)])
     nan = write_obj(tmp_path / "nan.obj", [(0, 0, 0), (1, 0, 0), (0, np.nan, 0)], [(0, 1, 2)])
-    said = {path: crossview("info", path).status for path in (two_pieces, doubled, flat, nan)}
-    assert list(said.values()) == [0, 1, 2, 2]
-    assert crossview("info", doubled, "--repair").status == 0
-    assert crossview("info", doubled, "--json").json["usable"] == "with repair"
+    said = {
+        path: crossview("info", path).status for path in (two_pieces, doubled, pages, flat, nan)
+    }
+    assert list(said.values()) == [0, 0, 1, 2, 2]
+    assert crossview("info", pages, "--repair").status == 0
+    assert crossview("info", pages, "--json").json["usable"] == "with repair"
+    assert "repair" not in crossview("info", doubled).out
     assert crossview("info", "torus").status == 0
 
 

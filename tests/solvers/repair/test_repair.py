@@ -5,7 +5,7 @@ import pytest
 from numpy.typing import ArrayLike, NDArray
 
 from solvers.errors import SurfaceError
-from solvers.primitives import annulus, sphere, square, torus
+from solvers.primitives import annulus, sphere, torus
 from solvers.repair.soup import repair, repair_each
 from solvers.surface.trisurface import TriSurface
 
@@ -52,7 +52,7 @@ def moebius(n: int = 24) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
 
 
 def test_a_good_surface_stays_as_it_is(ball: TriSurface) -> None:
-    repaired = repair(ball.vertices, ball.faces, merge=True, aggressive=True, component="largest")
+    repaired = repair(ball.vertices, ball.faces, merge=True, cut_apart=True, component="largest")
     assert repaired.notes == ()
     assert np.array_equal(repaired.surface.faces, ball.faces)
     assert np.array_equal(repaired.surface.vertices, ball.vertices)
@@ -67,11 +67,6 @@ def test_unused_vertices_are_dropped_whatever_they_hold(ball: TriSurface) -> Non
 
 
 def test_elements_keep_the_callers_numbers_beside_unused_vertices() -> None:
-    vertices = np.concatenate([np.zeros((3, 3)), square(2).vertices])
-    faces = np.concatenate([square(2).faces + 3, [[3, 4, 4]]])
-    with pytest.raises(SurfaceError) as caught:
-        repair(vertices, faces)
-    assert caught.value.elements.tolist() == [8]
     book = np.array([[4, 5, 6], [5, 4, 7], [4, 5, 8]])
     corners = np.zeros((9, 3))
     corners[4:] = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1]]
@@ -126,11 +121,11 @@ def test_a_consistent_orientation_is_the_callers_choice(ball: TriSurface) -> Non
     assert np.all(np.einsum("ij,ij->i", surface.face_normals, surface.barycentres) < 0)
 
 
-@pytest.mark.parametrize("aggressive", [False, True])
-def test_a_moebius_strip_is_refused(aggressive: bool) -> None:
+@pytest.mark.parametrize("cut_apart", [False, True])
+def test_a_moebius_strip_is_refused(cut_apart: bool) -> None:
     vertices, faces = moebius()
     with pytest.raises(SurfaceError, match="one-sided") as caught:
-        repair(vertices, faces, aggressive=aggressive)
+        repair(vertices, faces, cut_apart=cut_apart)
     assert caught.value.elements.tolist() == list(range(len(faces)))
 
 
@@ -156,11 +151,9 @@ def test_a_component_that_is_not_there(ball: TriSurface, component: int | str) -
         repair(*beside(ball, ball, 5), component=component)
 
 
-def test_duplicate_triangles_are_named_then_dropped(ball: TriSurface) -> None:
+def test_duplicate_triangles_are_dropped_with_a_note(ball: TriSurface) -> None:
     faces = np.concatenate([ball.faces, ball.faces[[5, 7]][:, [1, 2, 0]]])
-    with pytest.raises(SurfaceError, match="duplicate"):
-        repair(ball.vertices, faces)
-    repaired = repair(ball.vertices, faces, aggressive=True)
+    repaired = repair(ball.vertices, faces)
     assert repaired.notes == ("dropped 2 duplicate triangles",)
     assert np.array_equal(repaired.surface.faces, ball.faces)
 
@@ -169,10 +162,7 @@ def test_a_triangle_flat_along_its_neighbours_edge_is_flipped_away() -> None:
     # corner 4 lies on the edge 1-2: the square's lower right half is split by a flat triangle
     vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0.5, 0.5, 0]])
     faces = [[0, 1, 4], [0, 4, 2], [4, 1, 2], [1, 3, 2]]
-    with pytest.raises(SurfaceError, match="degenerate") as caught:
-        repair(vertices, faces)
-    assert caught.value.elements.tolist() == [2]
-    repaired = repair(vertices, faces, aggressive=True)
+    repaired = repair(vertices, faces)
     assert repaired.notes == ("mended 1 triangle without area",)
     assert repaired.surface.n_faces == 4
     assert repaired.surface.area == pytest.approx(1)
@@ -182,7 +172,7 @@ def test_a_triangle_flat_along_its_neighbours_edge_is_flipped_away() -> None:
 def test_a_flat_triangle_on_the_boundary_is_dropped() -> None:
     vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0.5, 0.5, 0]])
     faces = [[0, 1, 3], [0, 3, 2], [3, 1, 2]]
-    surface = repair(vertices, faces, aggressive=True).surface
+    surface = repair(vertices, faces).surface
     assert surface.n_faces == 2
     assert surface.area == pytest.approx(0.5)
 
@@ -197,7 +187,7 @@ def test_a_needle_is_collapsed_without_opening_the_surface(ball: TriSurface) -> 
     faces = [f for f in ball.faces.tolist() if sorted(f) != sorted((a, b, c)) and f != left]
     # vertex a becomes the short edge a-new: two needles lie between the sheets
     faces += [[new, b, c], [new, d, b], [a, new, c], [new, a, d]]
-    repaired = repair(vertices, faces, aggressive=True)
+    repaired = repair(vertices, faces)
     assert repaired.surface.euler_characteristic == 2
     assert repaired.surface.n_faces == ball.n_faces
 
@@ -208,7 +198,7 @@ def test_a_book_of_three_pages_is_cut_apart() -> None:
     with pytest.raises(SurfaceError, match="non-manifold") as caught:
         repair(vertices, faces)
     assert caught.value.elements.tolist() == [[0, 1]]
-    repaired = repair(vertices, faces, aggressive=True, component="largest")
+    repaired = repair(vertices, faces, cut_apart=True, component="largest")
     assert "1 non-manifold edge" in repaired.notes[0]
     assert repaired.surface.n_faces == 1
 
@@ -220,7 +210,7 @@ def test_spheres_that_touch_in_a_vertex_are_cut_apart(ball: TriSurface) -> None:
     with pytest.raises(SurfaceError, match="non-manifold vert") as caught:
         repair(vertices, faces)
     assert caught.value.elements.tolist() == [left]
-    repaired = repair(vertices, faces, aggressive=True, component="largest")
+    repaired = repair(vertices, faces, cut_apart=True, component="largest")
     assert "cut apart at 1 vertex" in repaired.notes
     assert repaired.surface.euler_characteristic == 2
 
@@ -234,7 +224,7 @@ def test_spheres_that_touch_in_a_vertex_are_cut_apart(ball: TriSurface) -> None:
         ([[0, 0, 0], [1, 0, 0], [0, 1e200, 0]], [[0, 1, 2]], "not finite numbers below 1e"),
         ([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 3]], "outside 0..2"),
         ([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, -1]], "outside 0..2"),
-        ([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 1, 2]], "degenerate"),
+        ([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 1, 2]], "without area"),
     ],
 )
 def test_what_cannot_be_repaired_is_said_in_one_line(
@@ -243,11 +233,6 @@ def test_what_cannot_be_repaired_is_said_in_one_line(
     with pytest.raises(SurfaceError, match=words) as caught:
         repair(vertices, faces)
     assert "\n" not in str(caught.value)
-
-
-def test_a_surface_of_nothing_but_flat_triangles_is_empty_after_repair() -> None:
-    with pytest.raises(SurfaceError, match="empty"):
-        repair([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 1, 2]], aggressive=True)
 
 
 def test_a_soup_that_shrinks_to_nothing_is_empty() -> None:
