@@ -13,6 +13,7 @@ from crossview.workflow.quads import MeshOptions
 from solvers.errors import CrossviewError, SurfaceError
 from solvers.layouts import LayoutError
 from solvers.remedies import ANISOTROPIC, MAKE_VALID, RepairSurface, TakeLargest
+from tests.pinched import pinched
 from tests.windowing import Hand
 
 FILE = Opening("bad.obj")
@@ -93,14 +94,9 @@ def test_quads_are_not_waited_for_after_a_stop(hand: Hand) -> None:
 
 def test_a_wrong_file_is_repaired_and_its_largest_piece_taken(hand: Hand, tmp_path: Path) -> None:
     """Both at once are wrong, and are mended by one click."""
-    path = tmp_path / "bad.obj"
-    path.write_text(
-        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 5 1 0\n"
-        "f 1 2 3\nf 1 3 4\nf 1 3 4\nf 5 6 7\n"
-    )
-    hand.open(str(path))
+    hand.open(pinched(tmp_path / "bad.obj", "v 5 0 0", "v 6 0 0", "v 5 1 0", "f -3 -2 -1"))
     bar = hand.window.centre.message_bar
     assert bar.action_buttons[0].text() == "Repair, use the largest piece"
     bar.action_buttons[0].click()
     hand.wait()
-    assert hand.state.document.surface.n_faces == 2
+    assert hand.state.document.surface.n_faces == 14

@@ -22,6 +22,7 @@ from crossview.workflow.quads import MeshOptions
 from solvers.progress import Progress
 from solvers.remedies import RepairSurface, UseMethod
 from tests.crossview.session.headless import Headless, known
+from tests.pinched import pinched
 
 
 @pytest.fixture
@@ -80,9 +81,7 @@ def test_what_cannot_be_opened_is_refused_and_what_was_open_stays(
 
 
 def test_a_bad_file_is_shown_where_it_is_wrong_and_repaired(held: Headless, tmp_path: Path) -> None:
-    path = tmp_path / "bad.obj"
-    path.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\nf 1 2 2\n")
-    held.open(str(path))
+    held.open(pinched(tmp_path / "bad.obj"))
     message = held.state.message
     kinds = {type(remedy): remedy for remedy in message.remedies}
     held.session.carry_out(kinds[ShowWhere], message.tried)
@@ -93,8 +92,8 @@ def test_a_bad_file_is_shown_where_it_is_wrong_and_repaired(held: Headless, tmp_
     held.session.carry_out(kinds[RepairSurface], message.tried)
     held.wait()
     assert held.state.message is None
-    assert held.state.document.surface.n_faces == 2
-    assert held.state.solved  # four corners: the indices add up
+    assert held.state.document.surface.n_faces == 14
+    assert held.state.solved  # eight corners: the indices add up
 
 
 def test_dragging_follows_and_dropping_solves(held: Headless) -> None:
