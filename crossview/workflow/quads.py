@@ -34,7 +34,7 @@ from solvers.quads import (
     smooth,
 )
 from solvers.singularities import Singularity, SplitOne
-from solvers.surface import TriSurface
+from solvers.surface import IntArray, TriSurface
 
 
 @dataclass(frozen=True)
@@ -159,19 +159,22 @@ def quads(layout: QuadLayout, options: MeshOptions) -> Generator[Progress, None,
     each = [Condition(np.array([arc]), 1) for arc in range(layout.tmesh.n_arcs)]
     surface = own_surface(layout.surface)
     tried: list[tuple[Worth, QuadMesh]] = []
+    filled: list[IntArray] = []
     for k, trial in enumerate(TRIALS):
         best = max(tried, key=itemgetter(0), default=None)
         if best is not None and not (options.smooth and 0 < -best[0].fewest <= trial.most):
             continue
         conditions = bends if trial.may_vanish else bends + each
         turn = LITTLE if trial.bend_little else None
-        made = yield from between(
-            _filled(layout, options, max(1, round(trial.share * number)), conditions, turn),
-            k / len(TRIALS),
-            (k + 1) / len(TRIALS),
-        )
-        chosen = made.quantization
-        made = replace(made, quantization=chosen and replace(chosen, n_wanted=number))
+        done = k / len(TRIALS)
+        yield Progress("choosing numbers of quads", done)
+        share = max(1, round(trial.share * number))
+        chosen = _quantized(layout, options, share, conditions, turn)
+        if any(np.array_equal(chosen.counts, counts) for counts in filled):
+            continue
+        filled.append(chosen.counts)
+        made = yield from between(_filled(layout, options, chosen), done, (k + 1) / len(TRIALS))
+        made = replace(made, quantization=replace(chosen, n_wanted=number))
         tried.append((worth(made, surface), made))
     mesh = max(tried, key=itemgetter(0))[1]
     mesh.check()
@@ -197,24 +200,18 @@ def fewest(layout: QuadLayout) -> int | None:
 
 
 def _filled(
-    layout: QuadLayout,
-    options: MeshOptions,
-    number: int,
-    conditions: Sequence[Condition],
-    turn: float | None,
+    layout: QuadLayout, options: MeshOptions, chosen: Quantization
 ) -> Generator[Progress, None, QuadMesh]:
-    """Fill a layout with about so many quads, whose numbers along arcs meet conditions."""
-    yield Progress("choosing numbers of quads", 0.0)
-    chosen = _quantized(layout, options, number, conditions, turn)
+    """Fill a layout with so many quads along its arcs."""
     yield Progress("filling the patches", 0.3)
     spacing = bent_spacing(layout, chosen.counts, options.max_chord)
-    filled = replace(fill(layout, chosen.counts, spacing), quantization=chosen)
+    made = fill(layout, chosen.counts, spacing)
     if options.smooth:
         yield Progress("smoothing", 0.5)
         curves = layout.integrated.aligned.features.curves
-        filled = smooth(filled, curves=[curve.vertices for curve in curves])
+        made = smooth(made, curves=[curve.vertices for curve in curves])
     yield Progress("checking the quads", 0.9)
-    return filled
+    return made
 
 
 def _quantized(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from solvers.surface.triangulation import IntArray
+from solvers.surface.triangulation import BoolArray, IntArray
 
 
 class CornersAround:
@@ -46,3 +46,12 @@ def paired_sides(edge_of: IntArray) -> IntArray:
     order = np.argsort(edge_of, kind="stable")
     paired = np.flatnonzero(np.diff(edge_of[order]) == 0)
     return np.stack([order[paired], order[paired + 1]])
+
+
+def grown(quads: IntArray, some: BoolArray, rings: int) -> BoolArray:
+    """Return some quads (q,) and so many rings of others around them."""
+    for _ in range(rings):
+        touched = np.zeros(int(quads.max(initial=0)) + 1, dtype=bool)
+        touched[quads[some]] = True
+        some = np.asarray(touched[quads].any(axis=1))
+    return some

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from copy import copy
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from solvers.quads.corners import TangentPlanes, unit
 from solvers.quads.projection import Projection
 from solvers.quads.quadmesh import QuadMesh
 from solvers.quads.rails import Rail
-from solvers.surface.triangulation import FloatArray, IntArray
+from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
 
 REACH = 0.4
 """Share of the gap to its neighbour on the rail that a vertex may cross in one step.
@@ -91,6 +92,14 @@ class Sliding:
             on = np.flatnonzero(self.rail == i)
             s[on] = rail.nearest(mesh.vertices[on])
         return Places(mesh.vertices, mesh.faces, mesh.barycentric, s)
+
+    def part(self, some: BoolArray) -> Sliding:
+        """Return what holds the vertices of some of the quads (q,); those of others stay."""
+        quads, fixed = self.mesh.quads, self.mesh.fixed.copy()
+        fixed[quads[~some]] = True
+        other = copy(self)
+        other.mesh = replace(self.mesh, quads=quads[some], fixed=fixed)
+        return other
 
     def quality(self, places: Places, quads: IntArray) -> FloatArray:
         """Return the scaled Jacobians of quads (..., 4), given by vertices; less of slim ones."""

@@ -18,12 +18,13 @@ import numpy as np
 from solvers.kind_checks import one_of_kind
 from solvers.number_checks import whole_number
 from solvers.quads.corners import unit, worth
+from solvers.quads.incidence import grown
 from solvers.quads.quadmesh import QuadMesh
 from solvers.quads.rails import Rail, boundary_rails
 from solvers.quads.sliding import SAME_PLACE, Places, Sliding
 from solvers.quads.unfolding import ENOUGH, unfold
 from solvers.quads.untangling import POOR, improve_worst
-from solvers.surface.triangulation import FloatArray, IntArray
+from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
 
 ROUNDS = 30
 """How often all vertices move. Chosen."""
@@ -50,6 +51,12 @@ SLIM = 50.0
 """Longest side of a quad, in its shortest, beyond which it counts as poorer in the end.
 
 Measured: without, sides shrink to 1e-9 of others where fields stretch.
+"""
+
+RINGS = 4
+"""How many rings of quads around poor ones are smoothed again with them.
+
+Measured: with all quads, no fewer are left inverted, in twice the time.
 """
 
 GOOD = 0.5
@@ -131,23 +138,31 @@ def smooth(
     least = quality.min(initial=1.0)
     found = _kept_above(_floor(quality, least), sliding, start, rounds)
     for _ in range(UNFOLDINGS):
-        if sliding.quality(found, mesh.quads).min(initial=1.0) >= ENOUGH:
+        poor = sliding.quality(found, mesh.quads) < ENOUGH
+        if not poor.any():
             break
-        found, before = _unfolded(sliding, found, least, rounds), found
+        found, before = _unfolded(_around(sliding, poor), found, least, rounds), found
         if found is before:
             break
     found = _widened(sliding, found, rounds)
     return replace(mesh, vertices=found.vertices, faces=found.faces, barycentric=found.weights)
 
 
+def _around(sliding: Sliding, some: BoolArray) -> Sliding:
+    """Return what holds the vertices of some quads (q,) and of `RINGS` rings around them."""
+    return sliding.part(grown(sliding.mesh.quads, some, RINGS))
+
+
 def _widened(sliding: Sliding, found: Places, rounds: int) -> Places:
     """Return places without sides of nearly no length, if no more quads are inverted there."""
-    quads = sliding.mesh.quads
     strict = Sliding(sliding.mesh, sliding.rails, sliding.rail, SLIM)
-    quality = strict.quality(found, quads)
-    if not (quality < np.minimum(sliding.quality(found, quads), ENOUGH)).any():
+    quads = sliding.mesh.quads
+    slim = strict.quality(found, quads) < np.minimum(sliding.quality(found, quads), ENOUGH)
+    if not slim.any():
         return found
-    tried = _kept_above(np.minimum(quality, GOOD), strict, found, rounds)
+    sliding, strict = _around(sliding, slim), _around(strict, slim)
+    quads = sliding.mesh.quads
+    tried = _kept_above(np.minimum(strict.quality(found, quads), GOOD), strict, found, rounds)
     now, then = (worth(sliding.quality(places, quads)) for places in (found, tried))
     return tried if then[0] >= now[0] and then[1] >= min(now[1], ENOUGH) else found
 
@@ -249,8 +264,8 @@ def _round(
     weight = np.repeat(1 / sides.prod(axis=0), 4)
     total = [np.bincount(quads.reshape(-1), weight * x, mesh.n_vertices) for x in asked.T]
     weights = np.bincount(quads.reshape(-1), weight, mesh.n_vertices)
-    means = np.stack(total, axis=1) / weights[:, None]
-    moved = places.put(free, sliding.moved(places, free, means[free]))
+    means = np.stack(total, axis=1)[free] / weights[free, None]
+    moved = places.put(free, sliding.moved(places, free, means))
     return sliding.held_back(places, moved, quality, floor)
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.optimize import minimize
 
 from solvers.quads.corners import worth
-from solvers.quads.incidence import edge_table, paired_sides
+from solvers.quads.incidence import edge_table, grown, paired_sides
 from solvers.quads.sliding import Places, Sliding
 from solvers.surface.triangulation import BoolArray, FloatArray, IntArray
 
@@ -70,7 +70,7 @@ def unfold(sliding: Sliding, places: Places, free: IntArray, sides: FloatArray) 
         if quality.min(initial=1.0) >= ENOUGH or since == PATIENCE:
             break
         poor |= quality < ENOUGH
-        region = _grown(quads, poor)
+        region = grown(quads, poor, RINGS)
         places = _step(sliding, places, may_move, region, wanted, max(EASE**k, HARD))
         quality = sliding.quality(places, quads)
         since += 1
@@ -98,15 +98,6 @@ def graded(quads: IntArray, sides: FloatArray) -> FloatArray:
         np.minimum.at(least, second, GROWTH * before[first])
         if np.array_equal(least, before):
             return least.reshape(2, -1)
-
-
-def _grown(quads: IntArray, some: BoolArray) -> BoolArray:
-    """Return some quads and `RINGS` rings of others around them."""
-    for _ in range(RINGS):
-        touched = np.zeros(int(quads.max(initial=0)) + 1, dtype=bool)
-        touched[quads[some]] = True
-        some = np.asarray(touched[quads].any(axis=1))
-    return some
 
 
 def _step(
