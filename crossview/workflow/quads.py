@@ -11,6 +11,7 @@ from operator import itemgetter
 import numpy as np
 
 from crossview.cases.model import PlacedSingularity
+from crossview.certificate import Reference
 from crossview.workflow.certification import Worth, own_surface, worth
 from crossview.workflow.layout import layout
 from crossview.workflow.solution import Solution
@@ -31,7 +32,7 @@ from solvers.quads import (
     fill,
     quantize_to,
     size_conditions,
-    smooth,
+    smoothing_stages,
 )
 from solvers.singularities import Singularity, SplitOne
 from solvers.surface import IntArray, TriSurface
@@ -49,6 +50,9 @@ class _Trial:
     may_vanish: bool = True
     most: int = 7
 
+
+Judged = tuple[Worth, QuadMesh]
+"""A mesh, and what it is worth."""
 
 TRIALS = (
     _Trial(),
@@ -158,7 +162,8 @@ def quads(layout: QuadLayout, options: MeshOptions) -> Generator[Progress, None,
     bends = bending_conditions(layout, options.max_chord)
     each = [Condition(np.array([arc]), 1) for arc in range(layout.tmesh.n_arcs)]
     surface = own_surface(layout.surface)
-    tried: list[tuple[Worth, QuadMesh]] = []
+    tried: list[Judged] = []
+    first: Worth | None = None
     filled: list[IntArray] = []
     for k, trial in enumerate(TRIALS):
         best = max(tried, key=itemgetter(0), default=None)
@@ -173,9 +178,11 @@ def quads(layout: QuadLayout, options: MeshOptions) -> Generator[Progress, None,
         if any(np.array_equal(chosen.counts, counts) for counts in filled):
             continue
         filled.append(chosen.counts)
-        made = yield from between(_filled(layout, options, chosen), done, (k + 1) / len(TRIALS))
-        made = replace(made, quantization=replace(chosen, n_wanted=number))
-        tried.append((worth(made, surface), made))
+        chosen = replace(chosen, n_wanted=number)
+        making = _filled(layout, options, chosen, surface, first)
+        made = yield from between(making, done, (k + 1) / len(TRIALS))
+        first = made[0][0] if first is None else max(first, made[0][0])
+        tried += made
     mesh = max(tried, key=itemgetter(0))[1]
     mesh.check()
     return mesh
@@ -200,18 +207,30 @@ def fewest(layout: QuadLayout) -> int | None:
 
 
 def _filled(
-    layout: QuadLayout, options: MeshOptions, chosen: Quantization
-) -> Generator[Progress, None, QuadMesh]:
-    """Fill a layout with so many quads along its arcs."""
+    layout: QuadLayout,
+    options: MeshOptions,
+    chosen: Quantization,
+    surface: Reference,
+    beaten: Worth | None,
+) -> Generator[Progress, None, list[Judged]]:
+    """Fill a layout with so many quads along its arcs; the stages of smoothing them.
+
+    Only the first if it does not beat what is given.
+    """
     yield Progress("filling the patches", 0.3)
     spacing = bent_spacing(layout, chosen.counts, options.max_chord)
-    made = fill(layout, chosen.counts, spacing)
-    if options.smooth:
-        yield Progress("smoothing", 0.5)
-        curves = layout.integrated.aligned.features.curves
-        made = smooth(made, curves=[curve.vertices for curve in curves])
-    yield Progress("checking the quads", 0.9)
-    return made
+    made = replace(fill(layout, chosen.counts, spacing), quantization=chosen)
+    if not options.smooth:
+        return [(worth(made, surface), made)]
+    yield Progress("smoothing", 0.5)
+    judged: list[Judged] = []
+    curves = [curve.vertices for curve in layout.integrated.aligned.features.curves]
+    for smoothed in smoothing_stages(made, curves=curves):
+        yield Progress("checking the quads", 0.7 + 0.1 * len(judged))
+        judged.append((worth(smoothed, surface), smoothed))
+        if beaten is not None and judged[0][0] <= beaten:
+            break
+    return judged
 
 
 def _quantized(

@@ -15,7 +15,7 @@ from solvers.quads.quantization import (
     quantize_to,
 )
 from solvers.quads.sizing import MAX_SIZE_RATIO, size_conditions
-from solvers.quads.smoothing import smooth
+from solvers.quads.smoothing import smooth, smoothing_stages
 
 __all__ = [
     "MAX_CHORD",
@@ -33,4 +33,5 @@ __all__ = [
     "scaled_jacobian",
     "size_conditions",
     "smooth",
+    "smoothing_stages",
 ]

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 from solvers.primitives import BUILTIN
+from solvers.quads.corners import worth
 from solvers.quads.quadmesh import QuadMesh
 from solvers.quads.rails import Rail, boundary_rails
 from solvers.quads.sliding import Sliding
-from solvers.quads.smoothing import rectangles, smooth
+from solvers.quads.smoothing import rectangles, smooth, smoothing_stages
 from solvers.surface.trisurface import TriSurface
 from tests.solvers.quads.quad_grids import (
     GRIDS,
@@ -108,6 +109,16 @@ def test_folded_quads_are_unfolded() -> None:
     folded = on_surface(mesh.surface, places, mesh.quads, np.flatnonzero(mesh.fixed).tolist())
     assert folded.scaled_jacobian.min() < -0.5
     assert smooth(folded).scaled_jacobian.min() > 0.9
+
+
+@pytest.mark.parametrize("name", GRIDS)
+def test_each_stage_is_better_than_the_one_before_and_the_last_is_returned(name: str) -> None:
+    mesh = GRIDS[name](noise=2.5)
+    stages = list(smoothing_stages(mesh))
+    assert len(stages) > 1
+    worths = [worth(stage.scaled_jacobian) for stage in [mesh, *stages]]
+    assert worths == sorted(worths)
+    assert np.array_equal(stages[-1].vertices, smooth(mesh).vertices)
 
 
 def test_rectangles_are_kept_and_rhombi_become_squares() -> None:
